@@ -58,7 +58,7 @@ pub fn in_si<'py>(given: Vec<(String, Bound<'py, PyAny>)>) -> PyResult<(Vec<Boun
     Ok((values, quantities.is_si()))
 }
 
-/// The value of a keyword, whose quantities are `found`.
+/// The value of a keyword; its quantities are `found`.
 fn read<'py>(key: &str, value: &Bound<'py, PyAny>, found: &mut Vec<Measured>) -> PyResult<Bound<'py, PyAny>> {
     if value.is_none() || value.is_instance_of::<PyBytes>() || !has_dimension(key) {
         return Ok(value.clone());
@@ -89,7 +89,7 @@ pub fn measured(key: &str, text: &str) -> PyResult<Quantity> {
     if found.has_unit { Ok(found) } else { Err(number()) }
 }
 
-/// The map of a problem, of which Python gives the attributes.
+/// The map of a problem, by attributes of Python.
 #[derive(FromPyObject)]
 pub struct Map<'py> {
     pub heights: Field<'py>,

@@ -24,7 +24,7 @@ use crate::running::At;
 pub type Answer<'py> = PyResult<Bound<'py, PyDict>>;
 
 /// The file of a table as Python passes it: its path, the folder for fields, whether to start over, the gaps and
-/// tractions and the works of adhesion of the law, and whether it is another law than those of its name.
+/// tractions and the works of adhesion of the law, and whether it differs from the laws of its name.
 pub type File<'py> = (PathBuf, Option<PathBuf>, bool, Option<Field<'py>>, Option<Field<'py>>, bool);
 
 /// The names of the columns of a table, and its rows.
@@ -158,7 +158,7 @@ pub fn pace<T: Scalar>(session: &Session<T>) -> Pace {
     session.pace().map(|pace| (pace.seconds_left(), pace.told()))
 }
 
-/// The stability of a gap under a load, of which the certified error is known.
+/// The stability of a gap under a load, with a known certified error.
 pub fn stability<'py, T: Scalar>(
     session: &mut Session<T>,
     at: &At<'py>,

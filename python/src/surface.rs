@@ -22,7 +22,7 @@ use crate::pools::apart;
 use crate::refusal::{reason, refusal};
 use crate::report::reported;
 
-/// A map, of which Python gives the attributes and gets a dictionary.
+/// A map: Python gives attributes and gets a dictionary.
 #[derive(FromPyObject, IntoPyObject)]
 pub struct Map<H> {
     heights: H,

@@ -25,7 +25,8 @@ const COARSEST: usize = 16;
 /// The memory that a solve may take by default, in bytes: 4 GiB.
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
 
-/// The numbers of 8 bytes that a solve holds for each node at most, with those of the surface and of its refinement.
+/// The numbers of 8 bytes that a solve holds for each node at most, with the numbers of the surface and of its
+/// refinement.
 pub(super) const NUMBERS: f64 = 12.0;
 
 /// The expected operator applications of a solve, those on coarser grids included.
@@ -41,8 +42,8 @@ const DOUBT: f64 = 3.0;
 /// many nodes along its sides by Fourier interpolation ([`resample`](crate::surface::resample), but with node (0, 0) in
 /// its place; with a free boundary continued by its mirror images).
 ///
-/// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
-/// absent nodes, and one with steps are not refined. A [`Varying`](crate::adhesion::Varying) law has the work of adhesion of
+/// The answer has the grid of [`AccurateSolution::surface`], never coarser than the given one. A surface with absent
+/// nodes, and one with steps are not refined. A [`Varying`](crate::adhesion::Varying) law has the work of adhesion of
 /// each node on all nodes in its place; other laws that vary are not refined.
 ///
 /// ```
@@ -69,7 +70,7 @@ pub struct Accuracy {
     pub nested: Nested,
 }
 
-/// The expected cost of a solve to an accuracy, from that of other surfaces.
+/// The expected cost of a solve to an accuracy, from the cost on other surfaces.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
@@ -107,7 +108,7 @@ pub struct AccurateSolution<T: Real> {
 }
 
 impl<T: Real> AccurateSolution<T> {
-    /// All operator applications, [as of nested grids](crate::nested::NestedSolution::equivalent_applications).
+    /// All operator applications, [as on nested grids](crate::nested::NestedSolution::equivalent_applications).
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }
@@ -157,7 +158,7 @@ impl Accuracy {
     ///
     /// # Errors
     /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Unsuited`] if the control gives the
-    /// quantity; those of [`Accuracy::tolerance`].
+    /// quantity; otherwise as [`Accuracy::tolerance`].
     pub fn plan<T: Real>(
         &self,
         solver: &Solver<dyn ContactConstraint<T>>,
@@ -221,7 +222,7 @@ impl Accuracy {
         (by_edge, adhesion, line): (bool, f64, bool),
         smaller: f64,
     ) -> i32 {
-        // without a coarser grid the waves tell the error of the area, and the edge that of the others
+        // without a coarser grid the waves tell the error of the area, and the edge the errors of the others
         let least = GridError::LEAST_NODES_PER_WAVE;
         let least = if by_edge || self.of == Quantity::Area { least } else { 2.0 * least };
         let enough = |refinements: &i32| {
@@ -237,7 +238,8 @@ impl Accuracy {
     /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. The body has `operators` on each grid.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
+    /// [`Error::Unsuited`] if the control gives the quantity; otherwise as [`Accuracy::tolerance`] and
+    /// [`Nested::solve`].
     pub fn solve<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -253,7 +255,7 @@ impl Accuracy {
     /// finer grid follows.
     ///
     /// # Errors
-    /// Those of [`Accuracy::solve`].
+    /// As [`Accuracy::solve`].
     pub fn solve_observed<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -293,7 +295,8 @@ impl Accuracy {
             let periodic = solution.report.boundary == Boundary::Periodic;
             let mut waves = surface.nodes_per_wave(solution.report.boundary);
             let (mut surface, given) = (surface.clone(), surface.grid().shape());
-            // that of a law with the range of the grid, or one that the grid does not resolve, changes by it too
+            // the adhesion of a law with the range of the grid, or of a law that the grid does not resolve, changes
+            // with the grid too
             let resolved = !law.hints().of_grid && resolves_adhesion(solution.report.mu_rho, 1.0);
             let (error, reached, unaffordable) = loop {
                 let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
@@ -304,7 +307,7 @@ impl Accuracy {
                     break (error, converged && error.as_ref().is_some_and(enough), None);
                 }
                 let shape = twice(surface.grid().shape());
-                // the operator's grid grows as that of the surface
+                // the operator's grid grows as the grid of the surface
                 let nodes = whole.as_ref().map_or(surface.grid(), |(grid, _)| grid).nodes() as f64;
                 let bytes = 8.0 * NUMBERS * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
                 if bytes > self.memory {

@@ -68,7 +68,7 @@ pub fn spaced(name: &str) -> String {
     name.replace("pull_off", "pull-off").replace('_', " ")
 }
 
-/// The nominal area of a row, of which the load is not zero.
+/// The nominal area of a row with a load that is not zero.
 fn area(row: &Value) -> Option<f64> {
     Some(value(row, "normal_force") / value(row, "mean_pressure")).filter(|area| area.is_finite())
 }

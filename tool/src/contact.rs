@@ -27,7 +27,7 @@ use crate::units::Units;
 /// SOLVED is the folder of a solve, from which gap.npy, contact_pressure.npy and report.json are read. Near the edge of
 /// the contact the densities of gap and contact pressure are powers of them, with the exponents -1/3 and 1 at a hard
 /// wall without adhesion. The exponents are determined in a window above the values of the nodes next to the edge,
-/// whose density is an artefact of the grid; if no window fits, they are unknown. The autocorrelation of the contact
+/// where the grid distorts the density; if no window fits, they are unknown. The autocorrelation of the contact
 /// pressure is about its mean and over its variance, in a periodic cell.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, mut_args(results::of_files))]

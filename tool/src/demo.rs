@@ -36,7 +36,7 @@ use crate::{Command, Tool, parsed};
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// Folder for the maps; those of an earlier demo are replaced
+    /// Folder for the maps; maps of an earlier demo are replaced
     #[arg(long, value_name = "DIR", default_value = "asperity-demo", help_heading = "Output")]
     out: PathBuf,
     /// Format of the maps

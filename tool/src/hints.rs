@@ -137,7 +137,7 @@ fn before<'a>(arguments: &'a [OsString], word: &str) -> &'a str {
     pair.and_then(|pair| pair[0].to_str()).unwrap_or_default()
 }
 
-/// Whether a name is that of several of what another one names.
+/// Whether a name is the plural of another name.
 fn is_plural(name: &str, one: &str) -> bool {
     name.len() > one.len() && is_same(name, one)
 }

@@ -27,7 +27,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 /// since the undeformed surfaces first touched, and the stiffness is the slope of the pressure over the closure.
 /// --resistivities, --conductivities and --leakage add conductance and transmissivity. --for adds files that a
 /// finite-element code reads: pressure over closure, and conductance and transmissivity over pressure, from zero
-/// pressure on. With adhesion the rows are those of one branch, and one of them needs a pressure of zero or less. Exits
+/// pressure on. With adhesion the rows belong to one branch, and one of them needs a pressure of zero or less. Exits
 /// with 0 if all rows converged, 2 if not (then only the table is written), and 1 if the input is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
@@ -114,7 +114,7 @@ impl Options {
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let (rows, of_rows) = (table.session.rows(), table.session.of_rows());
-        // while the table changes, those of its former rows are wrong
+        // while the table changes, files of its former rows are wrong
         if self.manner.force || rows > 0 && of_rows != Some(rows) {
             table.first(|| self.clear())?;
         }

@@ -18,8 +18,8 @@ use crate::scene::SceneFile;
 
 /// List the adhesion laws, with formula, parameters and source.
 ///
-/// Tractions are over the gap g, attraction positive. Gaps count from the wall. Without a wall, those of lennard-jones
-/// count from its singularity, and those of morse from its equilibrium. With a law only that one is listed, and --plot
+/// Tractions are over the gap g, attraction positive. Gaps count from the wall. Without a wall, gaps of lennard-jones
+/// count from its singularity, and gaps of morse from its equilibrium. With a law only this law is listed, and --plot
 /// draws it.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

@@ -28,9 +28,9 @@ use crate::units::Units;
 ///
 /// GAP is the folder of a solve, from which gap.npy, the side lengths and the boundary are read, or a file of gaps:
 /// open where they are positive, closed elsewhere. The flow obeys Reynolds' equation. Its transmissivity, the flow
-/// times the viscosity over the pressure, a length cubed, lies between two bounds: that of any pressure, and that of
-/// any conserved flow. The constriction along each axis is the narrowest place of the widest passage. Exits with 0 if
-/// the distance of the bounds is within --tolerance, 2 if not (they still hold), and 1 if the input is refused.
+/// times the viscosity over the pressure, a length cubed, lies between two bounds: by any pressure, and by any
+/// conserved flow. The constriction along each axis is the narrowest place of the widest passage. Exits with 0 if the
+/// distance of the bounds is within --tolerance, 2 if not (they still hold), and 1 if the input is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, mut_args(results::of_files))]
 pub struct Options {

@@ -30,7 +30,7 @@ mod study;
 mod surface;
 mod sweep;
 
-// the parts of which commands are made
+// the parts that make commands
 mod adhesion;
 mod citation;
 mod entries;
@@ -130,8 +130,8 @@ const CONVERGED: u8 = 0;
 const REFUSED: u8 = 1;
 const NOT_CONVERGED: u8 = 2;
 
-/// Runs the program with the `arguments` of its process, of which the first is its name, and returns the exit code: 0 if
-/// all is well, 1 if something was refused, 2 if a solve did not converge.
+/// Runs the program with the `arguments` of its process, its name first, and returns the exit code: 0 if all is well, 1
+/// if something was refused, 2 if a solve did not converge.
 ///
 /// A process runs it once, as its last work: an interruption ends the process, and threads are chosen for all of it.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
@@ -233,7 +233,7 @@ fn agreed(processes: &Processes, converged: Outcome<bool>) -> u8 {
 /// Puts the results of a run, the folder of a solve or a table, on a page in a file, as `asperity report` does.
 ///
 /// # Errors
-/// Those of the command, in words.
+/// Errors of the command, in words.
 pub fn page(results: &Path, out: &Path, force: bool) -> Result<(), String> {
     let written = page::write(results, Some(out), force, &MapColours::default());
     written.map(|_| ()).map_err(|error| error.to_string())

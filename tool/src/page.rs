@@ -35,7 +35,7 @@ pub use of_table::draw_loads;
 /// RESULTS is the folder of a solve, a pull-off, a leakage or a contact, or the table of a sweep, a cycle, an interface
 /// or a study. The page shows the numbers, the warnings, maps that can be zoomed, curves, the scene that repeats the run,
 /// and how to cite. It is one file, which loads nothing from elsewhere, to send to a colleague or to keep with the data.
-/// Maps and curves are drawn from the files in the folder, those of a solve from gap.npy, pressure.npy and
+/// Maps and curves are drawn from the files in the folder, for a solve from gap.npy, pressure.npy and
 /// contact_pressure.npy.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

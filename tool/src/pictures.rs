@@ -22,7 +22,7 @@ use crate::output::{OutputFile, check_free};
 use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::units::Units;
 
-/// The format of pictures of which the tool chooses the names.
+/// The format of pictures with names that the tool chooses.
 #[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
 pub enum PictureFormat {
     /// Pixels
@@ -133,7 +133,7 @@ pub struct PlotOptions {
 }
 
 impl PlotOptions {
-    /// Refuses a chart that is in no known format, or whose file is there, but not the `table`, unless `force` replaces
+    /// Refuses a chart in no known format, or with a file that is there without the `table`, unless `force` replaces
     /// it.
     pub fn check(&self, table: &Path, force: bool) -> Outcome<()> {
         check_plot(self.plot.as_deref(), table, force)
@@ -146,7 +146,7 @@ impl PlotOptions {
     }
 }
 
-/// Refuses a chart that is in no known format, or whose file is there, but not the `table`, unless `force` replaces it.
+/// Refuses a chart in no known format, or with a file that is there without the `table`, unless `force` replaces it.
 pub fn check_plot(plot: Option<&Path>, table: &Path, force: bool) -> Outcome<()> {
     let Some(plot) = plot else { return Ok(()) };
     Format::of(plot)?;
@@ -275,9 +275,9 @@ pub fn mark_yielded<T: Real>(regions: &mut Array2<f64>, depth: ArrayView2<'_, T>
     regions.zip_mut_with(&depth, |region, depth| *region = if *depth > T::zero() { 2.0 } else { *region });
 }
 
-/// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1
-/// attraction, 0 apart, NaN no surface; and those that have yielded. Or draws the clusters of contact, on a map whose
-/// opposite sides meet or do not.
+/// Draws the nodes in contact, those that attract each other, and nodes apart, as numbers: 1 contact, -1 attraction, 0
+/// apart, NaN no surface; and nodes that have yielded. Or draws the clusters of contact, on a map with opposite sides
+/// that meet or do not.
 pub fn draw_contact(
     grid: Grid,
     title: &str,

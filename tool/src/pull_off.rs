@@ -24,9 +24,9 @@ use crate::summary::warn;
 
 /// Find the pull-off, the greatest tension that surfaces bear.
 ///
-/// Numbers may have units, all of them or none, like those of asperity solve. The surfaces were pressed flat before, or
-/// to the preload. Then the tension grows until they come apart, and the pull-off lies between a tension that they bear
-/// and one that they do not. Under a tension many contacts may break at once; asperity cycle draws the surfaces apart
+/// Numbers may have units, all of them or none, as for asperity solve. The surfaces were pressed flat before, or to the
+/// preload. Then the tension grows until they come apart, and the pull-off lies between a tension that they bear and
+/// one that they do not. Under a tension many contacts may break at once; asperity cycle draws the surfaces apart
 /// instead, and shows each break. Prints the pull-off as a pressure over the area of the map and as a force, and with
 /// --json also all keys of the last state that holds. Exits with 0 if the pull-off was found, 2 if not, and 1 if the
 /// input is refused.

@@ -33,9 +33,9 @@ pub struct Results<'a> {
     pub out: &'a Path,
     /// The scene that is put into the folder
     pub scene: &'a SceneFile,
-    /// All files that the command may leave, the first of which stands for the run
+    /// All files that the command may leave; the first stands for the run
     pub files: Vec<String>,
-    /// Whether files that are there are replaced; those of a run that has not converged are
+    /// Whether files that are there are replaced; files of a run that has not converged are
     pub force: bool,
 }
 
@@ -45,7 +45,7 @@ pub fn files(others: &[&str], pictures: &[&str]) -> Vec<String> {
     [REPORT, scene::NAME].iter().chain(others).chain([&PAGE]).map(|name| (*name).to_owned()).chain(pictures).collect()
 }
 
-/// An option of a command whose only files are in its folder: what those are like needs one.
+/// An option of a command with no files but in its folder: options of these files need a folder.
 pub fn of_files(option: Arg) -> Arg {
     let ids = ["format", "picture_format", "dpi", "width", "colour_limits", "colour_clusters"];
     if ids.contains(&option.get_id().as_str()) { option.requires("out") } else { option }

@@ -1,4 +1,4 @@
-//! `asperity selftest`: contacts whose solution is known, solved and compared with it.
+//! `asperity selftest`: contacts with a known solution, solved and compared with it.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -21,13 +21,13 @@ use crate::outcome::Outcome;
 use crate::printing::{Printing, bold, complain, green, yellow};
 use crate::threads;
 
-/// Solve contacts whose solution is known, and compare.
+/// Solve contacts with a known solution, and compare.
 ///
-/// Checks in some seconds, without files, that this program agrees with theory on this machine: for the sphere of
-/// Hertz, that of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32. A rough contact must
-/// also come out the same, bit for bit, on one thread and on all. Lengths are in periods of the surface, and pressures
-/// in contact moduli. The page self-test of the documentation explains the allowed differences. Exits with 0 if all
-/// checks hold, and 2 if one does not.
+/// Checks in some seconds, without files, that this program agrees with theory on this machine: for the spheres of
+/// Hertz and of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32. A rough contact must also
+/// come out the same, bit for bit, on one thread and on all. Lengths are in periods of the surface, and pressures in
+/// contact moduli. The page self-test of the documentation explains the allowed differences. Exits with 0 if all checks
+/// hold, and 2 if one does not.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -46,7 +46,7 @@ const RADIUS: f64 = 2.0;
 /// The amplitude of the waves.
 const AMPLITUDE: f64 = 0.02;
 
-/// A value that was found next to that of theory.
+/// A computed value next to the value of theory.
 #[derive(Serialize)]
 struct Check {
     what: &'static str,
@@ -130,7 +130,7 @@ type Compared = (&'static str, Found, f64, f64, f64);
 /// A surface on a half-space of contact modulus 1, with its law and its load.
 type Contact<'a> = (&'a Surface, Formula, Control);
 
-/// The equilibrium, to 1e-8 in f64, so that the error is that of the grid, and to the default of 1e-4 in f32.
+/// The equilibrium, to 1e-8 in f64, so that the grid alone makes the error, and to the default of 1e-4 in f32.
 fn solved<T: Scalar>((surface, law, control): &Contact<'_>) -> asperity::Result<Solution<T>> {
     let body = Westergaard::<T>::new(*surface.grid(), 1.0)?;
     let mut problem = Problem::new(surface, body, T::law(law.clone()))?;
@@ -174,8 +174,8 @@ fn known() -> Outcome<Vec<Check>> {
     ];
     check((sphere, Arc::new(NoAdhesion), Control::MeanGap(0.037)), &all)?;
 
-    // of a Tabor parameter of 1.4, near that of Johnson, Kendall and Roberts, in tension; the traction w/ρ is on whole
-    // nodes: its force is missed by a tenth of the nodes along the edge of its zone
+    // of a Tabor parameter of 1.4, near the limit of Johnson, Kendall and Roberts, in tension; the traction w/ρ is on
+    // whole nodes: its force is missed by a tenth of the nodes along the edge of its zone
     let (work, range) = (1e-4, 2e-3);
     let theory = Periodic::new(Maugis::new(RADIUS, 1.0, work, range)?, 1.0)?.at_mean_gap(0.0429, sphere.mean())?;
     let (p, a) = (theory.mean_pressure(), theory.contact().contact_radius());
@@ -186,7 +186,7 @@ fn known() -> Outcome<Vec<Check>> {
     ];
     check((sphere, Arc::new(MaugisDugdale::new(work, range)?), Control::MeanGap(0.0429)), &all)?;
 
-    // a wave in both directions: its pressure is that of one Fourier mode, exact on any grid
+    // a wave in both directions: its pressure is one Fourier mode, exact on any grid
     let closing = closing_pressure_2d(AMPLITUDE, 1.0, 1.0)?;
     let (wave, mean, greatest): (_, _, Found) = (&Surface::wave_2d(grid, AMPLITUDE, 1)?, 1.1 * closing, |_, most| most);
     let all = [("wave in full contact, greatest pressure", greatest, mean + closing, 0.0, 1.0)];
@@ -201,8 +201,8 @@ fn known() -> Outcome<Vec<Check>> {
     ];
     check((&ridges(1024)?, Arc::new(NoAdhesion), Control::MeanGap(theory.mean_gap())), &all)?;
 
-    // of so short a range that it is that of Johnson, Kendall and Roberts; theory has none: what differs is a zone of
-    // attraction of some ten ranges at the edge, of little force
+    // of so short a range that it is the limit of Johnson, Kendall and Roberts; theory has none: what differs is a zone
+    // of attraction of some ten ranges at the edge, of little force
     let (work, range) = (0.5 * (0.2 * PI * AMPLITUDE).powi(2), 0.025 * AMPLITUDE);
     let theory = AdhesiveWavyLine::new(AMPLITUDE, 1.0, 1.0, work)?;
     let (error, theory) = (2e-4 * theory.closing_pressure(), theory.at_half_width(0.25)?);
@@ -226,7 +226,7 @@ fn rough() -> Outcome<Vec<Check>> {
     Ok(checks)
 }
 
-/// The report of one thread, and how many values differ from those of all threads, but of two at least.
+/// The report of one thread, and how many values differ from the values of all threads, but of two at least.
 fn on_threads<T: Scalar>(contact: &Contact<'_>) -> Outcome<(Report, Option<Check>)> {
     let on = |count| threads::on(count, || solved::<T>(contact));
     let one = on(1)??;

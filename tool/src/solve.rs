@@ -54,7 +54,7 @@ pub struct Options {
     findings: Chosen<(FindingsKeys, ConductorKeys, PercolationKeys, LeakageKeys)>,
     /// Fields to write besides gap and pressures. If the second body is rigid, displacement.npy is gap plus height,
     /// less a plastic depth. If both are elastic, it is the displacement of the first one, and against_displacement.npy
-    /// that of the second
+    /// the displacement of the second
     #[arg(long, value_enum, value_name = "FIELD", requires = "out", help_heading = "Output")]
     fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in this many bins from 0

@@ -31,7 +31,7 @@ impl<'a> Solved<'a> {
     /// Reads the report.
     ///
     /// # Errors
-    /// [`Error::File`] if the folder is not that of a solve.
+    /// [`Error::File`] if the folder does not belong to a solve.
     pub fn read(folder: &'a Path) -> Result<Self> {
         let refuse = |reason: &str| Error::file(folder, reason);
         let text = fs::read_to_string(folder.join(REPORT))
@@ -60,8 +60,8 @@ impl<'a> Solved<'a> {
         Ok(map)
     }
 
-    /// What is beyond the map: of the original of a mirrored one sides through which nothing flows, or which have one
-    /// pressure, as those of a free one.
+    /// What is beyond the map: around the original of a mirrored map sides through which nothing flows, or which have
+    /// one pressure, as around a free map.
     pub fn boundary(&self) -> Boundary {
         let free = self.report["boundary"] == "free" || self.is_original();
         if free { Boundary::Free } else { Boundary::Periodic }

@@ -37,7 +37,7 @@ pub struct Options {
     #[command(flatten)]
     lengths: Chosen<LengthsKeys>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
-    /// the density, whose integral over both wave numbers is the mean square height, and the number of waves in its
+    /// the density, with the mean square height as its integral over both wave numbers, and the number of waves in its
     /// mean
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
@@ -94,8 +94,8 @@ pub fn table(map: &Topography, found: &(SurfaceStatistics, Option<f64>)) -> Stri
     aligned(&statistics::rows(map, found, Skin::Options))
 }
 
-/// The radially averaged density of a surface as comma-separated values, next to that of a target, with the units of
-/// the columns if that of length is known.
+/// The radially averaged density of a surface as comma-separated values, next to the density of a target, with the
+/// units of the columns if the unit of length is known.
 pub fn density_table(surface: &Surface, target: Option<&Spectrum>, unit: Option<&str>) -> String {
     let psd = surface.spectrum().radial_psd();
     let target = target.map(|target| target.radial_psd().densities);

@@ -45,7 +45,7 @@ pub struct Options {
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// File for the radially averaged power spectral density, like that of asperity stats, and its target
+    /// File for the radially averaged power spectral density, as asperity stats writes it, and its target
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
     /// Replace files that are there
@@ -85,7 +85,7 @@ struct Described {
     unit: Option<&'static str>,
 }
 
-/// The map of the surface, of which no file is written.
+/// The map of the surface, without a file.
 pub fn map(options: &Options, scene: &SceneFile) -> Outcome<Topography> {
     Ok(described(options, scene)?.make()?.1)
 }

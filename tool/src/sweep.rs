@@ -21,15 +21,15 @@ use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
-/// Each load starts from the solutions under the loads before it. Numbers may have units, all of them or none, like
-/// those of asperity solve. Each load gives a row of the file: the load, the mean gap, the contact area and its
-/// statistics, the energies, and how the solve ended. contact_fraction counts nodes in contact;
-/// corrected_contact_fraction is the area within the contact edge, which gap and pressure locate between the nodes;
-/// clusters counts separate contacts, and largest_cluster the nodes of the largest. The same command continues an
-/// interrupted sweep, also after loads were added to the end of the list; the file is the same, byte for byte. For that
-/// it keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
-/// continues the sweep. With a hardness the surface keeps its plastic depth from load to load. Exits with 0 if all rows
-/// converged, 2 if not (they are still written), and 1 if the input is refused or the file cannot be written.
+/// Each load starts from the solutions under the loads before it. Numbers may have units, all of them or none, as for
+/// asperity solve. Each load gives a row of the file: the load, the mean gap, the contact area and its statistics, the
+/// energies, and how the solve ended. contact_fraction counts nodes in contact; corrected_contact_fraction is the area
+/// within the contact edge, which gap and pressure locate between the nodes; clusters counts separate contacts, and
+/// largest_cluster the nodes of the largest. The same command continues an interrupted sweep, also after loads were
+/// added to the end of the list; the file is the same, byte for byte. For that it keeps FILE.state next to the file,
+/// which may be deleted at the end. asperity run FILE.scene.toml repeats or continues the sweep. With a hardness the
+/// surface keeps its plastic depth from load to load. Exits with 0 if all rows converged, 2 if not (they are still
+/// written), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).args(FractionsKeys::KEYS.iter().map(|key| key.name))))]
 pub struct Options {

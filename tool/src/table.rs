@@ -49,7 +49,7 @@ pub struct TableOptions<'a> {
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
-    /// Whether the table is that of an interface
+    /// Whether the table belongs to an interface
     pub interface: bool,
 }
 
@@ -221,7 +221,7 @@ impl<T: Scalar> Table<'_, T> {
         })
     }
 
-    /// Solves all rows that are left, says each in a line, and returns those of the file.
+    /// Solves all rows that are left, says each in a line, and returns the rows of the file.
     pub fn solve(&mut self) -> Outcome<Vec<Value>> {
         let (out, printing) = (self.options.out, self.options.manner.printing);
         let count = self.session.of_rows().unwrap_or_default();

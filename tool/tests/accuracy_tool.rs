@@ -3,7 +3,7 @@
 use crate::bench::{Bench, text};
 use serde_json::Value;
 
-/// A folder with a rough surface in it, whose shortest wave has four nodes.
+/// A folder with a rough surface, with four nodes in the shortest wave.
 fn rough() -> Bench {
     let bench = Bench::new();
     bench.said("surface --size 32 --k-l 1 --k-r 2 --k-s 8 --rms-slope 0.1 --quiet --out heights.npy");

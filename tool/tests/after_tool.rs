@@ -54,7 +54,7 @@ fn with_adhesion_the_spots_conduct_and_the_slope_of_the_law_does_not() {
     let sticky = solve("--law exponential --work-of-adhesion 20mJ/m2 --range 20nm");
     let found = &sticky["conductance"];
     let value = found["value"].as_f64().unwrap();
-    // the law pulls between the spots, and makes the stiffness less than that of the spots
+    // the law pulls between the spots, and makes the stiffness less than the stiffness of the spots
     assert!(value > sticky["contact_stiffness"].as_f64().unwrap() / 1e9, "{found}");
     assert!(found["relative_error"].is_null());
     // of weak adhesion it is that without

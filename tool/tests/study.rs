@@ -80,7 +80,7 @@ fn the_chart_of_a_study_names_its_curves_by_what_varies() {
     bench.said("report study.csv");
     for picture in ["study.svg", "study.csv.html"] {
         let picture = bench.read(picture);
-        // three colours and two dashes, of which one is solid
+        // three colours and two dashes, one of them solid
         for name in ["hurst 0.4", "hurst 0.8", "work of adhesion 20 mJ/m²", "work of adhesion 40 mJ/m²"] {
             assert!(picture.contains(&format!(">{name}<")), "{name}");
         }
@@ -236,7 +236,7 @@ fn a_case_comes_to_the_same_rows_from_whatever_an_end_in_its_middle_leaves() {
     assert!(rows == done[..rows.len()] && rows.len() < done.len());
     let zeros = |bytes: &[u8], from: usize| [&bytes[..from], &vec![0; bytes.len() - from]].concat();
     for (rows, saved, checksum, again) in [
-        // the process ends, with more rows than those of its state, or before it has one
+        // the process ends, with more rows than in its state, or before it has one
         (&rows[..], &saved[..], None, false),
         (&done, &saved, None, false),
         (&[&rows[..], b"7,8\n9,10\n11"].concat(), &saved, None, false),
@@ -295,7 +295,7 @@ fn files_vary_too_and_a_changed_file_is_another_case() {
     bench.write("units.toml", &range.replace("mean-gaps = 0.006", "mean-gaps = \"6nm\""));
     let listed = bench.said("study units.toml --list");
     assert!(listed.contains("2  to do  heights a,b.npy, modulus 2GPa"), "{listed}");
-    // of which some begin as an exponent does
+    // some begin as an exponent does
     bench.write(
         "units.toml",
         &range.replace("mean-gaps = 0.006", "mean-gaps = \"6nm\"").replace("1GPa:3GPa:3\"", "1eV/nm3:3eV/nm3:3\""),

@@ -15,7 +15,7 @@ fn csv(bench: &Bench, name: &str) -> (String, Vec<Vec<f64>>) {
     (header.to_owned(), rows.collect())
 }
 
-/// The number in the row of a table, of which there may be several with the same name.
+/// The number in the row of a table; several rows may have the same name.
 #[track_caller]
 fn numbers(table: &str, name: &str) -> Vec<f64> {
     let rows = table.lines().filter_map(|line| line.strip_prefix(name));

@@ -67,7 +67,7 @@ impl Bench {
         names
     }
 
-    /// The size of a picture, all of which is decoded, and whether there is more on it than one colour.
+    /// The size of a picture, wholly decoded, and whether there is more on it than one colour.
     fn picture(&self, out: &str, name: &str) -> (u32, u32, bool) {
         let file = File::open(self.0.path().join(out).join(name)).unwrap();
         let mut reader = png::Decoder::new(BufReader::new(file)).read_info().unwrap();
@@ -410,7 +410,7 @@ fn results_are_replaced_only_with_force() {
     assert!(bench.bytes("results", "gap.npy") != before);
     assert_eq!(bench.bytes("results", "notes.txt"), b"mine");
     assert_eq!(bench.names("results").len(), RESULTS.len() + 1);
-    // those of a run that failed are in nobody's way
+    // results of a run that failed are in nobody's way
     bench.solve("--mean-gap 0.03 --max-iterations 1", "failed", 2);
     bench.solve("--mean-gap 0.03", "failed", 0);
     assert_eq!(bench.report("failed")["status"], "converged");

@@ -275,7 +275,7 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     bench.run("study rough.toml");
     let found = listed("rough.csv");
     assert!(found.len() == 2 && found.iter().all(|one| one.starts_with("all cases")), "{found:?}");
-    // with those of the worst of its cases
+    // with the warnings of the worst of its cases
     let alone = [2, 3, 1].map(|seed| {
         bench.said(&format!("surface --size 16 --rms-slope 2 --k-s 4 --seed {seed} --quiet --force --out made.npy"));
         bench.run("sweep --heights made.npy --mean-pressures 0.01 --force --out made.csv");
@@ -379,7 +379,7 @@ fn side_lengths_of_another_file_win_over_those_in_a_scene() {
     // the scene that this leaves repeats it
     bench.said("run large/scene.toml --out again --quiet");
     assert!(bench.bytes("large/gap.npy") == bench.bytes("again/gap.npy"));
-    // a file without lengths takes those of the scene, and lengths that are given count
+    // a file without lengths takes the lengths of the scene, and lengths that are given count
     assert_eq!(
         bench.reported("run small/scene.toml --heights clean.npy --out a")["lengths"],
         serde_json::json!([1.0, 1.0])

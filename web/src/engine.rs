@@ -55,7 +55,7 @@ impl Engine {
     /// missing.
     ///
     /// # Errors
-    /// Those of [`Reading::read_bytes`].
+    /// As [`Reading::read_bytes`].
     pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>, masked: bool) -> Outcome<Value> {
         let read = Reading { channel: channel.clone(), masked, ..Reading::default() }.read_bytes(name, bytes);
         // what has one map alone has nothing else
@@ -78,7 +78,7 @@ impl Engine {
     /// Makes a surface by the options of `asperity surface`.
     ///
     /// # Errors
-    /// The key and the remedy, and those of the surface.
+    /// The key and the remedy, and errors of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
         let given = read(given, without_files::<(FormKeys, RoughnessKeys, GridKeys)>())?;
         let (typed, si) = (given.typed(), given.quantities().is_si());
@@ -104,7 +104,7 @@ impl Engine {
     /// Makes the surface of the map by the steps of `asperity prepare`; without any it is the map.
     ///
     /// # Errors
-    /// The key and the remedy, and those of the steps; then the surface stays as it was.
+    /// The key and the remedy, and errors of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
         let given = read(given, without_files::<(StepKeys, NewLengthsKeys, CutOffKeys)>())?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
@@ -157,7 +157,7 @@ impl Engine {
     /// The heights of the surface about their mean.
     ///
     /// # Errors
-    /// As of [`Engine::surface`].
+    /// As [`Engine::surface`].
     pub fn heights(&self) -> Outcome<Vec<f32>> {
         let map = self.surface()?;
         let mean = map.mean();
@@ -167,7 +167,7 @@ impl Engine {
     /// The statistics of the surface, its spectrum, and the histogram of its heights.
     ///
     /// # Errors
-    /// Those of [`Topography::statistics`].
+    /// As [`Topography::statistics`].
     pub fn statistics(&self) -> Outcome<Value> {
         let map = self.surface()?;
         check_memory("the statistics of a map", map.heights.dim(), 40)?;
@@ -194,7 +194,7 @@ impl Engine {
     /// Solves under a load.
     ///
     /// # Errors
-    /// The key and the remedy, and those of the solvers.
+    /// The key and the remedy, and errors of the solvers.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
         let given = read(given, of_problem())?;
         self.pose(&given, from_last)?.solve(&given, from_last, observe)
@@ -203,7 +203,7 @@ impl Engine {
     /// The gap of the last solution, for [`Engine::start_from`] of another engine with the same surface.
     ///
     /// # Errors
-    /// As of [`Engine::problem`].
+    /// As [`Engine::problem`].
     pub fn gap(&self) -> Outcome<Vec<f64>> {
         Ok(self.problem()?.gap().ok_or("nothing is solved yet: solve first")?.into_iter().collect())
     }
@@ -238,7 +238,7 @@ impl Engine {
     /// The next state along the loads; nothing at their end.
     ///
     /// # Errors
-    /// Those of the solvers.
+    /// Errors of the solvers.
     pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
         self.problem.as_mut().ok_or("there are no loads to follow: begin first")?.next(observe)
     }
@@ -246,7 +246,7 @@ impl Engine {
     /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.
     ///
     /// # Errors
-    /// Those of the solvers.
+    /// Errors of the solvers.
     pub fn cycle_limit(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
         self.problem.as_mut().map_or(Ok(None), |problem| problem.cycle_limit(observe))
     }
@@ -254,7 +254,7 @@ impl Engine {
     /// The bytes of a file to take away.
     ///
     /// # Errors
-    /// The name, if there is no such file, and those of the file.
+    /// The name, if there is no such file, and errors of the file.
     pub fn file(&self, name: &str) -> Outcome<Vec<u8>> {
         match name {
             "heights.npz" => Ok(map_as_npz(self.surface()?)?),
@@ -265,7 +265,7 @@ impl Engine {
     /// The lines that give the same answer in a shell and in Python.
     ///
     /// # Errors
-    /// As of [`Engine::problem`].
+    /// As [`Engine::problem`].
     pub fn lines(&self) -> Outcome<Value> {
         let (typed, started) = self.problem()?.asked().ok_or("nothing is solved yet: solve first")?;
         Ok(json!({

@@ -62,7 +62,7 @@ impl<T: Scalar> State<T> {
         Ok(Self { session, surface, original, last: None, before, table: Vec::new() })
     }
 
-    /// The gap of the last solution, or that of another problem.
+    /// The gap of the last solution, or of another problem.
     pub fn gap(&self) -> Option<Array2<f64>> {
         self.known().map(|gap| gap.mapv(T::widen))
     }
@@ -71,7 +71,7 @@ impl<T: Scalar> State<T> {
         self.last.as_ref().map(|last| &last.found.solution.gap).or(self.before.as_ref())
     }
 
-    /// The pressure of which a reduced pressure is a part, if one is among `loads`.
+    /// The unit of a reduced pressure, if one is among `loads`.
     pub fn full_pressure(&self, loads: &[Load]) -> Outcome<f64> {
         self.session.full_pressure(loads)
     }
@@ -86,7 +86,7 @@ impl<T: Scalar> State<T> {
         self.original.map_or(*self.surface.grid(), |original| *original.grid())
     }
 
-    /// A field of a solution by its name, on the part of which results are, if the solution has it.
+    /// A field of a solution by its name, on the part with results, if the solution has it.
     fn named(&self, name: &str, solution: &Solution<T>) -> Outcome<Option<Array2<T>>> {
         Ok(match name {
             "gap" => Some(gap_to_write(solution).into_owned()),
@@ -104,7 +104,7 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// A field on the part of which results are.
+    /// A field on the part with results.
     fn part<A: Clone>(&self, field: Array2<A>) -> Outcome<Array2<A>> {
         Ok(self.original.map_or_else(|| Ok(field.clone()), |original| original.of(field.view()))?)
     }

@@ -47,7 +47,7 @@ fn a_drag_comes_to_the_equilibrium_of_a_solve_from_the_default() {
         for answer in [&dragged, &fresh] {
             assert_eq!(answer["account"]["status"], "converged", "{given}");
         }
-        // both are within the tolerance of one equilibrium, at whose edge nodes touch or not
+        // both are within the tolerance of one equilibrium: nodes at its edge touch or not
         let nodes = of(&fresh, "contact_nodes");
         assert!((of(&dragged, "contact_nodes") - nodes).abs() <= 0.01 * nodes, "{given}");
         let tolerance = 10.0 * of(&fresh, "tolerance");

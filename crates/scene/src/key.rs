@@ -118,7 +118,7 @@ lists!(A B C D);
 lists!(A B C D E);
 lists!(A B C D E F);
 
-/// The keys of lists, but for those of files, in whose place Python has arrays and objects, and a page nothing.
+/// The keys of lists, but for keys of files: in their place Python has arrays and objects, and a page nothing.
 pub fn without_files<L: Lists>() -> impl Iterator<Item = &'static Key> {
     L::keys().filter(|key| !matches!(key.kind.values, Values::File))
 }

@@ -53,13 +53,14 @@ pub struct Opening {
     pub fields: Option<PathBuf>,
     /// Whether to start over, and to replace files that are there.
     pub force: bool,
-    /// Whether it is that of a case of a study: it waits for another run that writes there, and saves its state now and then.
+    /// Whether the table belongs to a case of a study: it waits for another run that writes there, and saves its state
+    /// from time to time.
     pub is_case: bool,
     /// The files that may stand next to the table and its state.
     pub beside: Vec<PathBuf>,
 }
 
-/// A table on disk, new or continued, whose file the first of several processes has.
+/// A table on disk, new or continued; the first of several processes has its file.
 ///
 /// One that ends without a row, as by an error at the first one, leaves no file behind that it made.
 pub struct Table {
@@ -101,7 +102,7 @@ impl Format {
         }
     }
 
-    /// The row of a line, whose columns have these names.
+    /// The row of a line with columns of these names.
     pub fn parsed(self, names: &[impl AsRef<str>], line: &str) -> Value {
         match self {
             Self::Csv => csv::parsed(names, line),
@@ -183,7 +184,7 @@ impl Table {
     }
 
     /// Appends a row with the place from which the next one follows, if that is saved, and the fields of its solution on
-    /// the part of a mirrored map, if they are kept: those of a cycle where the row or the next one has an event, and of
+    /// the part of a mirrored map, if they are kept: for a cycle where the row or the next one has an event, and for
     /// the last row.
     ///
     /// # Errors
@@ -224,7 +225,7 @@ impl Table {
     /// Opens the table again after [`Self::release`].
     ///
     /// # Errors
-    /// Those of [`Self::open`], and rows of another run.
+    /// As [`Self::open`], and rows of another run.
     pub fn claim(&mut self) -> Outcome<()> {
         if self.journal.is_some() {
             return Ok(());

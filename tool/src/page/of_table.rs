@@ -139,8 +139,8 @@ pub fn draw_loads(table: &Path, plot: &PlotOptions) -> Outcome<()> {
     plot.draw(&rows, &units_of_table(&header, None), None)
 }
 
-/// What one asks of a cycle first: the pull-off, the jumps, and the energy that they dissipate. Those of a body with a
-/// free boundary are forces and energies, others are over the area, too.
+/// What one asks of a cycle first: the pull-off, the jumps, and the energy that they dissipate. A body with a free
+/// boundary has forces and energies, others have them over the area, too.
 fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
     let columns = Columns::new(rows, units);
     let free = !columns.are_per_area();

@@ -15,8 +15,8 @@ use crate::results::write_report;
 use crate::units::Units;
 
 impl Job<'_> {
-    /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
-    /// where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
+    /// Writes the files but for fields, where each process writes its rows; files of the `whole` solution, where there
+    /// is one. Returns the load beyond the colours of the picture of the pressure, in words.
     pub(super) fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,

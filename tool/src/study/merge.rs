@@ -14,7 +14,7 @@ use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
 use crate::warnings::{read_beside, write_beside};
 
-/// Writes the table of a study whose cases are all done; the number of its rows, and of those that did not converge.
+/// Writes the table of a study with all cases done; the number of its rows, and of rows that did not converge.
 pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
     let (mut table, mut count, mut unconverged) = (String::new(), 0, 0);
     let (format, columns) = (study.format, columns(study)?);
@@ -30,7 +30,7 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
             let Value::Object(mut row) = format.parsed(&names, line) else { continue };
             let converged = row.get("status").is_some_and(|status| status == "converged");
             unconverged += usize::from(!converged || row.get("reached") == Some(&Value::Bool(false)));
-            // the name of a surface that was made is that of no file
+            // a surface that was made has the name of no file
             let told = columns.iter().filter(|name| study.cases[0].words.len() == 1 || *name != "heights");
             let cells = told.map(|name| (name.clone(), row.remove(name).unwrap_or_default()));
             let number = std::iter::once(("case".to_owned(), (k + 1).into()));
@@ -52,7 +52,7 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
     Ok((count, unconverged))
 }
 
-/// The columns of all cases, those of the first one before those that others add.
+/// The columns of all cases: of the first case, then columns that others add.
 fn columns(study: &Study) -> Outcome<Vec<String>> {
     let mut columns: Vec<String> = Vec::new();
     for Case { rows, .. } in &study.cases {

@@ -62,7 +62,7 @@ impl<T: Real> Found<T> {
     /// run away.
     ///
     /// # Errors
-    /// Those of [`Conductance::of`], [`Conductance::of_spots`] and [`LeakAsked::find`].
+    /// As [`Conductance::of`], [`Conductance::of_spots`] and [`LeakAsked::find`].
     pub(crate) fn after(&self, after: &After, elastic: &Elastic) -> Result<Findings> {
         if check_finite(&self.solution).is_err() {
             return Ok(Findings::default());
@@ -96,8 +96,8 @@ impl<T: Real> Found<T> {
         Ok(findings)
     }
 
-    /// The conductance by the contact stiffness; with adhesion, whose slope between the spots conducts nothing, by
-    /// that of the spots alone.
+    /// The conductance by the contact stiffness; with adhesion, which conducts nothing between the spots, by the
+    /// stiffness of the spots alone.
     fn conductance(&self, conductors: Conductors, elastic: &Elastic) -> Result<Option<Conducted>> {
         let (solution, resistivities) = (&self.solution, conductors.resistivities());
         let Some(stiffness) = &self.stiffness else { return Ok(None) };

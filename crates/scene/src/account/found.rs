@@ -61,7 +61,7 @@ pub struct Sight<T: Real> {
     pub(crate) report: Report,
     /// The contact area in the limit of no range, of a law that has the range of the grid.
     pub(crate) jkr_contact_fraction: Option<f64>,
-    /// The nested grids, whose errors are estimated with the first look.
+    /// The nested grids; their errors are estimated with the first look.
     pub(crate) open: Option<(Waves, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.
     pub(crate) errors: Option<(GridErrors, f64)>,
@@ -69,7 +69,7 @@ pub struct Sight<T: Real> {
     seen: Option<Seen>,
 }
 
-/// The nodes of the shortest wave of a surface, or the surface, of which they are found.
+/// The nodes of the shortest wave of a surface, or the surface itself.
 pub(crate) enum Waves {
     Known(f64),
     Of(Arc<Surface>),
@@ -121,7 +121,7 @@ impl<T: Real> Found<T> {
         Self { levels: Some(levels), equivalent_applications: Some(applications), stiffness, ..self }
     }
 
-    /// The solution on the part of a mirrored map of which results are.
+    /// The solution on the part of a mirrored map that has results.
     ///
     /// # Errors
     /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
@@ -162,8 +162,8 @@ impl<T: Real> Sight<T> {
     }
 }
 
-/// Whether a surface has yielded: gap and pressure then tell no edge of the contact between the nodes, as they are not
-/// those of an elastic one.
+/// Whether a surface has yielded: gap and pressure then tell no edge of the contact between the nodes, unlike in an
+/// elastic contact.
 fn has_yielded(report: &Report) -> bool {
     report.plastic.is_some_and(|plastic| plastic.fraction > 0.0)
 }

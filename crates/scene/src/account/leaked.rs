@@ -78,7 +78,7 @@ impl Narrowest {
 }
 
 record! {
-    /// A flow per pressure between two bounds, from those of the transmissivity.
+    /// A flow per pressure between two bounds, from the bounds of the transmissivity.
     #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
     Enclosed of (bounds: Bounds, viscosity: f64) {
         /// The lower bound.
@@ -132,7 +132,7 @@ impl LeakAsked {
     /// The leakage through a gap, with the flow, and as its report has it.
     ///
     /// # Errors
-    /// Those of [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
+    /// As [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
     pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
         self.find_while(gap, &|| true)
     }
@@ -140,7 +140,7 @@ impl LeakAsked {
     /// The same, by [`Leakage::through_while`](asperity_flow::Leakage::through_while).
     ///
     /// # Errors
-    /// Those of [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
+    /// As [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
     pub fn find_while(&self, gap: Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<(Leak, Leaked)> {
         let Self { boundary, absent_gap, settings, grid_error, .. } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };

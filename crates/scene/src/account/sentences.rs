@@ -154,7 +154,7 @@ pub(crate) fn untold(account: &Account) -> String {
     }
 }
 
-/// The warning of a cycle whose imbalance of energy is more than 5 % of the greatest work, if it is.
+/// The warning of a cycle with an imbalance of energy above 5 % of the greatest work.
 pub fn unbalanced(greatest_work: f64, imbalance: f64, skin: Skin) -> Option<String> {
     let share = (imbalance / greatest_work).abs();
     let text = || {

@@ -74,7 +74,7 @@ impl Typed {
     }
 }
 
-/// The start of a text that is long, such as that of an array, with its number of characters.
+/// The start of a long text, such as an array's, with its number of characters.
 fn shortened(text: &str) -> String {
     const MOST: usize = 100;
     let start: String = text.chars().take(MOST / 2).collect();
@@ -230,7 +230,7 @@ impl Given {
         }
     }
 
-    /// The object whose fields have the names of keys; keys that it does not have are left out.
+    /// The object with fields by the names of keys; keys that it does not have are left out.
     ///
     /// # Errors
     /// The value that is none for its key.
@@ -292,7 +292,7 @@ impl FromIterator<Measured> for Quantities {
 }
 
 impl Quantities {
-    /// Those of several parts.
+    /// The keys of several parts.
     pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {
         Self(parts.into_iter().flat_map(|part| part.0).collect())
     }

@@ -20,7 +20,7 @@ pub struct Kind {
     pub excludes: &'static [&'static str],
     /// The keys without which it may not stand.
     pub needs: &'static [&'static str],
-    /// The key whose value it replaces, if it stands behind that.
+    /// The key that it replaces, if it stands behind that key.
     pub replaces: Option<&'static str>,
     /// Whether values stand with commas between.
     pub commas: bool,
@@ -163,7 +163,7 @@ impl Kind {
         Self { needs, ..self }
     }
 
-    /// The key whose value it replaces, if it stands behind that.
+    /// The key that it replaces, if it stands behind that key.
     pub(crate) const fn replaces(self, key: &'static str) -> Self {
         Self { replaces: Some(key), ..self }
     }

@@ -22,18 +22,18 @@ pub struct Law {
     pub source: &'static str,
     /// Whether it never ends, so that it can be cut off.
     pub never_ends: bool,
-    /// Whether its range is that of the grid, so that it has none of its own.
+    /// Whether the grid sets its range, so that it has none of its own.
     pub of_grid: bool,
     /// Whether it repels surfaces that come too close, so that they need no wall.
     pub repels: bool,
-    /// The law of the parameters of an adhesion, or that of its table.
+    /// The law of the parameters of an adhesion, or of its table.
     pub(crate) make: fn(&Adhesion, Option<&Tabulated>) -> Result<Formula>,
 }
 
 /// The key of the parameter that a map may take the place of.
 pub(crate) const WORK: &str = "work_of_adhesion";
 
-/// No law, of which the others differ in what they name.
+/// No law; other laws differ from it in the fields that they name.
 const NONE: Law = Law {
     name: "none",
     formula: "no adhesion",

@@ -69,10 +69,10 @@ pub struct Preparation {
 }
 
 impl Given {
-    /// The steps of a preparation of a map of a shape, whose numbers are in SI units or not, and which may have a unit.
+    /// The steps of a preparation of a map of a shape, with numbers in SI units or not; the map may have a unit.
     ///
     /// # Errors
-    /// Those of [`Preparation::set_lengths`] and [`Preparation::set_cut_off_wavelength`].
+    /// As [`Preparation::set_lengths`] and [`Preparation::set_cut_off_wavelength`].
     pub fn steps(
         &self,
         shape: (usize, usize),
@@ -118,7 +118,7 @@ impl Log {
 }
 
 impl Preparation {
-    /// The steps with those of a cleaning.
+    /// The steps with the steps of a cleaning.
     fn cleaned(mut self) -> Self {
         let has = |part: &str| !self.without.iter().any(|without| without == part);
         let [rows, scars, spikes, plane, holes] = StepKeys::OF_CLEAN.map(has);
@@ -176,7 +176,7 @@ impl Preparation {
     /// The prepared map, with a line in the log for each step; the log has those before an error, too.
     ///
     /// # Errors
-    /// Those of the steps: see [`Topography`].
+    /// Errors of the steps: see [`Topography`].
     pub fn run(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
         if self.clean {
             return self.clone().cleaned().run(map, log);
@@ -291,7 +291,7 @@ impl Preparation {
         if let Some(cut_off) = self.cut_off_wavelength {
             let before = map.clone();
             map = map.low_pass(cut_off)?;
-            // the waves are those of a periodic map: where edges do not meet they ring
+            // the waves belong to a periodic map: where edges do not meet they ring
             let rings = |warning: &Warning| warning.code == WarningCode::OpenEdges;
             log.warn(Warning::of_surface(&before.clone().surface()?).into_iter().filter(rings), &before);
             let [to, from] = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));

@@ -12,7 +12,7 @@ pub struct Told {
     pub code: String,
     /// The message.
     pub message: String,
-    /// How bad it is, among those of its code.
+    /// How bad it is, among the warnings of its code.
     #[serde(skip)]
     pub(crate) severity: f64,
 }

@@ -29,7 +29,7 @@ pub(crate) struct Course<T> {
     way: Way,
     /// The findings that are asked for after each state
     after: After,
-    /// The mean gap at first touch, if its table is that of an interface
+    /// The mean gap at first touch, if its table belongs to an interface
     touch: Option<f64>,
     place: Place<T>,
     /// Whether no state follows
@@ -111,7 +111,7 @@ impl<T: Scalar> Course<T> {
     /// interface, if the mean gap of first touch is given, and with the loads on the whole map.
     ///
     /// # Errors
-    /// Those of [`Path::new`].
+    /// As [`Path::new`].
     pub fn new(way: Way, after: After, touch: Option<f64>, on_whole: impl Fn(Control) -> Control) -> Result<Self> {
         let strategy = match &way {
             Way::Sweep(_) => Strategy::Sweep(Sweep::default()),
@@ -152,18 +152,18 @@ impl<T: Scalar> Course<T> {
     /// Takes the time of an operator application of the problem for what a cycle is likely to take.
     ///
     /// # Errors
-    /// Those of [`Session::seconds_of_application`].
+    /// As [`Session::seconds_of_application`].
     pub fn expect(&mut self, session: &Session<T>) -> Result<()> {
         let Some(pace) = &mut self.pace else { return Ok(()) };
         pace.expect(session.seconds_of_application()?, session.adheres());
         Ok(())
     }
 
-    /// Opens a table of the course, whose problem has an identity and fields on a grid, and returns it with the course
+    /// Opens a table of the course for a problem with an identity and fields on a grid, and returns it with the course
     /// from where its last row leads, or from a start.
     ///
     /// # Errors
-    /// Those of [`Table::open`].
+    /// As [`Table::open`].
     pub fn open(
         self,
         opening: Opening,
@@ -183,7 +183,7 @@ impl<T: Scalar> Course<T> {
     /// Appends the row of the state that was found last to a table of fields on a grid.
     ///
     /// # Errors
-    /// Those of [`Table::append`].
+    /// As [`Table::append`].
     pub fn append(
         &self,
         table: &mut Table,
@@ -230,7 +230,7 @@ impl<T: Scalar> Course<T> {
         }
     }
 
-    /// The inputs on which the rows depend, besides those of the problem and the loads that are known before.
+    /// The inputs on which the rows depend, besides the problem and the loads that are known before.
     pub(crate) fn identity(&self) -> Identity {
         let entries = match &self.way {
             Way::Cycle(loads, PathSettings { steps, smallest_step, imbalance, smooth, .. }) => json!({
@@ -255,7 +255,7 @@ impl<T: Scalar> Course<T> {
     /// Refuses a cycle that the problem does not have.
     ///
     /// # Errors
-    /// Those of [`Session::parts`] and [`Path::new`].
+    /// As [`Session::parts`] and [`Path::new`].
     pub fn check(&self, session: &mut Session<T>) -> Result<()> {
         let periodic = session.scene().elastic.boundary == Boundary::Periodic;
         if let (Way::Cycle(loads, _), true) = (&self.way, periodic)
@@ -272,7 +272,7 @@ impl<T: Scalar> Course<T> {
     /// The next state; none at the end, and where the solve on a cycle was stopped.
     ///
     /// # Errors
-    /// Those of the solvers of the library; after one the place is lost.
+    /// Errors of the solvers of the library; after one the place is lost.
     pub fn next(
         &mut self,
         session: &mut Session<T>,
@@ -324,11 +324,11 @@ impl<T: Scalar> Course<T> {
     /// that is apart and under hardly any of the greatest tension.
     ///
     /// # Errors
-    /// Those of [`Sight::look`](crate::Sight::look).
+    /// As [`Sight::look`](crate::Sight::look).
     pub fn row(&mut self, found: &mut Found<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
         let statistics = found.sight.look_at(&mut account, &found.solution)?;
         if self.touch.is_some() {
-            // its own, or that of the first state, on which the others follow
+            // its own, or the branch of the first state, on which the others follow
             self.place.branch = account.branch.or(self.place.branch);
             account.branch = self.place.branch;
         }

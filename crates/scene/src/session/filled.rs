@@ -33,13 +33,13 @@ pub struct TableFile {
     pub fields: Option<PathBuf>,
     /// Whether to start over, and to replace files that are there.
     pub force: bool,
-    /// Whether it is that of a case of a study.
+    /// Whether the table belongs to a case of a study.
     pub is_case: bool,
     /// The gaps and tractions of a law, a pair in each row.
     pub law_table: Option<Array2<f64>>,
     /// The works of adhesion, where they vary.
     pub works: Option<Array2<f64>>,
-    /// Whether the law is another one than those of its name and parameters.
+    /// Whether the law differs from the laws of its name and parameters.
     pub law_differs: bool,
 }
 
@@ -57,7 +57,7 @@ const NOT_BEGUN: &str = "there are no loads to follow: begin first";
 
 impl<T: Scalar> Session<T> {
     /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or
-    /// continues its table in a file; that of an interface, if it is one.
+    /// continues its table in a file; an interface's, if it is one.
     ///
     /// # Errors
     /// A way that the problem does not have, a table of another run, or one that was changed or is being written, and files
@@ -123,8 +123,8 @@ impl<T: Scalar> Session<T> {
         Ok(())
     }
 
-    /// The identity of the problem with the fields of a table, of which the first of several processes knows it, from a
-    /// start that is given.
+    /// The identity of the problem with the fields of a table, which the first of several processes knows, from a given
+    /// start.
     fn identity(&self, file: &TableFile, start: Option<&Array2<f64>>) -> Outcome<Identity> {
         let surface = self.surface()?;
         let (start, surface) = (start.map(|start| self.grid.whole(start)), surface.whole());
@@ -156,7 +156,7 @@ impl<T: Scalar> Session<T> {
     /// [kept](Self::keep): a state that was stopped, or ran away, is looked for again.
     ///
     /// # Errors
-    /// Those of the solvers of the library, a solve that ran away, warnings, if they are errors, and rows that another
+    /// Errors of the solvers of the library, a solve that ran away, warnings, if they are errors, and rows that another
     /// run has written since [`Self::release`].
     pub fn seek(
         &mut self,
@@ -202,7 +202,7 @@ impl<T: Scalar> Session<T> {
     /// the place before are not kept meanwhile, as [`Self::seek`] keeps them.
     ///
     /// # Errors
-    /// Those of [`Self::seek`] and [`Self::keep`].
+    /// As [`Self::seek`] and [`Self::keep`].
     pub fn next(
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::account::INPUTS;
 
-/// The most colours and dashes of a chart, of which each has a name.
+/// The most colours and dashes of a chart that have names.
 const MOST_COLOURS: usize = 8;
 const MOST_DASHES: usize = 4;
 
@@ -31,8 +31,9 @@ pub fn value(row: &Value, column: &str) -> f64 {
 }
 
 /// Whether the axes of columns `x` and `y` of rows are logarithmic: where the values along x span more than a decade, and
-/// are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not: the area of its loop is an
-/// energy. A transmissivity, which falls to zero as the cube of the gap, is logarithmic wherever it spans a decade.
+/// are spread more evenly so; along y if that spans a decade, too. A cycle has no logarithmic axes: the area of its
+/// loop is an energy. A transmissivity, which falls to zero as the cube of the gap, is logarithmic wherever it spans a
+/// decade.
 pub fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
     let leaks = y.starts_with("transmissivity");
     let across = spread(rows.iter().map(|row| value(row, x)));
@@ -45,7 +46,7 @@ pub fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
     [x_log, (x_log || leaks) && up.is_some_and(is_wide)]
 }
 
-/// Whether rows are those of a cycle.
+/// Whether rows belong to a cycle.
 fn is_cycle(rows: &[Value]) -> bool {
     rows.first().is_some_and(|row| row["leg"].is_u64())
 }
@@ -113,9 +114,9 @@ fn distinct(rows: &[Value], columns: &[&str]) -> usize {
     rows.iter().map(values).collect::<HashSet<_>>().len()
 }
 
-/// The cases of a study over column `x`, by the other columns that vary: columns of which one determines the other are
-/// one key, the key with the fewest values is told by the dash, and the others by the colour, as far as there are
-/// colours. Where there are more cases than these, a seed names none: surfaces of several seeds are samples of one.
+/// The cases of a study over column `x`, by the other columns that vary: columns that determine each other are one key,
+/// the key with the fewest values is told by the dash, and the others by the colour, as far as there are colours. Where
+/// there are more cases than these, a seed names none: surfaces of several seeds are samples of one.
 fn cases<'a>(rows: &'a [Value], x: &str, told: &dyn Fn(&str, f64) -> String) -> Vec<Leg<'a>> {
     let mut columns = varied(rows);
     let is_along = columns.contains(&x);
