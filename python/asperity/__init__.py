@@ -32,7 +32,10 @@ from .answers.leakage import Flow, Leakage, leakage
 from .answers.pull_off import PullOff
 from .answers.solution import Solution
 from .answers.sweep import Sweep
-from .api.contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
+from .api.contact import Contact
+from .api.loading import pull_off, viscoelastic
+from .api.solve import solve, stability
+from .api.tables import cycle, interface, sweep
 from .bodies.body import Coating, Layer, Symbol
 from .bodies.wall import Penalty, Uzawa
 from .common.progress import progress

@@ -1,7 +1,6 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::{Given, KEYWORDS, Key, Quantities, Skin, Typed, Values, worded};
-use pyo3::IntoPyObjectExt;
+use asperity_scene::{Given, Key, Quantities, Skin, Typed};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -14,32 +13,6 @@ macro_rules! known {
     ($($list:ident),*) => { std::iter::empty()$(.chain(asperity_scene::without_files::<asperity_scene::$list>()))*.collect::<Vec<_>>() };
 }
 pub(crate) use known;
-
-/// The defaults and meanings of keywords, by the lists of keys.
-#[pyfunction]
-pub fn meanings(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    let of_list = |list: &'static [Key]| {
-        let known = PyDict::new(py);
-        for key in list.iter().filter(|key| key.is_keyword()) {
-            known.set_item(key.name, (default(py, key)?, worded(key.help.trim(), Skin::Keywords)))?;
-        }
-        Ok(known)
-    };
-    KEYWORDS.iter().map(|(_, _, list)| of_list(list)).collect()
-}
-
-/// The default of a keyword.
-fn default<'py>(py: Python<'py>, key: &Key) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let text = key.kind.default.unwrap_or("none");
-    Ok(match key.kind.values {
-        // one that denies another has three values
-        Values::Switch if key.kind.replaces.is_none() => Some(false.into_bound_py_any(py)?),
-        Values::Whole(..) => text.parse::<u64>().ok().map(|number| number.into_bound_py_any(py)).transpose()?,
-        Values::Number(_) => text.parse::<f64>().ok().map(|number| number.into_bound_py_any(py)).transpose()?,
-        Values::Word(_) if text != "none" => Some(text.into_bound_py_any(py)?),
-        _ => None,
-    })
-}
 
 /// What a dictionary of keywords gives for some of the `known` keys.
 pub fn read(known: &[&'static Key], keywords: &Bound<'_, PyDict>) -> PyResult<Given> {

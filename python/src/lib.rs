@@ -41,7 +41,7 @@ mod _asperity {
         flow::{conductance, leakage, percolation},
         inputs::{has_dimension, in_si, quantity, shown},
         interface::interface_files,
-        keywords::{Keywords, meanings},
+        keywords::Keywords,
         law::{Law, check_law, cut_off, law, read_law, tabulated, varied},
         pair::{between, contact_modulus},
         problem::Problem,

@@ -38,20 +38,32 @@ fn annotation(key: &Key) -> String {
     format!("{values}{object} | None")
 }
 
+/// The default of a keyword, as Python writes it.
+fn default(key: &Key) -> String {
+    let text = key.kind.default.unwrap_or("none");
+    match key.kind.values {
+        // one that denies another has three values
+        Values::Switch if key.kind.replaces.is_none() => "False".to_owned(),
+        Values::Number(_) => text.parse::<f64>().map_or("None".to_owned(), |number| format!("{number:?}")),
+        Values::Whole(..) => text.parse::<u64>().map_or("None".to_owned(), |number| number.to_string()),
+        Values::Word(_) if text != "none" => format!("{text:?}"),
+        _ => "None".to_owned(),
+    }
+}
+
 fn python() -> String {
     let mut text = String::from(
-        "\"\"\"The keywords of solves, by the keys of scenes. Written by `UPDATE=1 cargo test -p asperity-scene --test keys`.\"\"\"\n\n\
-         from __future__ import annotations\n\nfrom typing import TYPE_CHECKING, Literal, TypedDict\n\n\
-         if TYPE_CHECKING:\n    from collections.abc import Iterable\n\n    from numpy.typing import ArrayLike\n\n    \
-         from ..bodies.wall import Penalty, Uzawa\n    from ..common.types import OwnLaw, Quantity\n",
+        "\"\"\"The keywords of solves, by the lists of the keys of scenes: types and defaults.\n\nWritten by `UPDATE=1 cargo \
+         test -p asperity-scene --test keys`.\n\"\"\"\n\nKEYS = {\n",
     );
-    for (name, about, list) in KEYWORDS {
-        let _ = write!(text, "\n\nclass {name}Keywords(TypedDict, total=False):\n    \"\"\"{about}.\"\"\"\n\n");
+    for (name, _, list) in KEYWORDS {
+        let _ = writeln!(text, "    \"{name}\": {{");
         for key in list.iter().filter(|key| key.is_keyword()) {
-            let _ = writeln!(text, "    {}: {}", key.name, annotation(key));
+            let _ = writeln!(text, "        \"{}\": '{} = {}',", key.name, annotation(key), default(key));
         }
+        text.push_str("    },\n");
     }
-    text
+    text + "}\n"
 }
 
 fn document() -> String {
@@ -75,7 +87,7 @@ fn document() -> String {
 #[test]
 fn keywords_of_python_and_the_table_of_the_documents_are_the_keys() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    for (file, text) in [("python/asperity/api/keys.py", python()), ("docs/program/keys.md", document())] {
+    for (file, text) in [("python/tests/keys.py", python()), ("docs/program/keys.md", document())] {
         let path = root.join(file);
         if std::env::var_os("UPDATE").is_some() {
             std::fs::write(&path, &text).expect("a file that can be written");

@@ -8,6 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 
 Boundary: TypeAlias = Literal["periodic", "free"]
 WallName: TypeAlias = Literal["hard", "none", "penalty", "uzawa"]
+Base: TypeAlias = Literal["bonded", "sliding"]
+LawName: TypeAlias = Literal[
+    "none", "jkr", "maugis-dugdale", "exponential", "lennard-jones", "morse", "power", "van-der-waals"
+]
 Method: TypeAlias = Literal["default", "rey2017"]
 Precision: TypeAlias = Literal["f64", "f32"]
 Branch: TypeAlias = Literal["loading", "unloading"]

@@ -11,7 +11,8 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from .. import _asperity
-from ..api.contact import Contact, cycle
+from ..api.contact import Contact
+from ..api.tables import cycle
 from ..bodies.body import Coating, Layer
 from ..common.types import AxisOrder, Lengths, OwnLaw, Quantity
 from ..common.units import number
