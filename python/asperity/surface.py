@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _asperity
 from .common.summary import summary
 from .common.types import AxisOrder, Lengths, Quantity, Shape, Tilt
-from .common.units import given, plain
-from .common.words import checked
+from .common.units import in_si, plain
+from .common.words import named
 from .maps.arrays import side_lengths
 from .maps.heights import Heights, taken
 from .maps.topography import Topography, sides
@@ -100,7 +100,7 @@ class PowerSpectralDensity(NamedTuple):
         return summary(self)
 
 
-@checked
+@named
 def self_affine(
     shape: Shape,
     lengths: Lengths,
@@ -143,6 +143,7 @@ def self_affine(
     -------
     Topography
     """
+    lengths, rms_height, is_si = in_si(lengths=lengths, rms_height=rms_height)
     roughness = {
         "rms_height": rms_height,
         "rms_slope": rms_slope,
@@ -153,10 +154,10 @@ def self_affine(
         "random_phase": random_phase,
         "seed": seed,
     }
-    return _made(shape, lengths, roughness, tilt=tilt, periodic=None if tilt else True, seed=seed)
+    return _made(shape, lengths, roughness, tilt=tilt, periodic=None if tilt else True, seed=seed, is_si=is_si)
 
 
-@checked
+@named
 def sphere(
     shape: Shape, lengths: Lengths, *, radius: Quantity, tilt: Tilt = None
 ) -> Topography:
@@ -183,28 +184,32 @@ def sphere(
     >>> f"{pressed.approach / asperity.exact.Hertz(2.0, 1.0).at_load(0.01).approach:.2f}"
     '1.00'
     """
-    return _made(shape, lengths, form="sphere", radius=radius, tilt=tilt)
+    lengths, radius, is_si = in_si(lengths=lengths, radius=radius)
+    return _made(shape, lengths, form="sphere", radius=radius, tilt=tilt, is_si=is_si)
 
 
-@checked
+@named
 def paraboloid(shape: Shape, lengths: Lengths, *, radius: Quantity, tilt: Tilt = None) -> Topography:
     """Makes a paraboloid, −r²/2R with the radius of curvature R; see `sphere`."""
-    return _made(shape, lengths, form="paraboloid", radius=radius, tilt=tilt)
+    lengths, radius, is_si = in_si(lengths=lengths, radius=radius)
+    return _made(shape, lengths, form="paraboloid", radius=radius, tilt=tilt, is_si=is_si)
 
 
-@checked
+@named
 def cone(shape: Shape, lengths: Lengths, *, angle: float, tilt: Tilt = None) -> Topography:
     """Makes a cone, −r tan(angle), with the angle in degrees between its side and the half-space; see `sphere`."""
-    return _made(shape, lengths, form="cone", angle=angle, tilt=tilt)
+    lengths, is_si = in_si(lengths=lengths)
+    return _made(shape, lengths, form="cone", angle=angle, tilt=tilt, is_si=is_si)
 
 
-@checked
+@named
 def flat_punch(shape: Shape, lengths: Lengths, *, radius: Quantity, tilt: Tilt = None) -> Topography:
     """Makes a flat punch: 0 up to its radius, missing points beyond; see `sphere`."""
-    return _made(shape, lengths, form="flat-punch", radius=radius, tilt=tilt)
+    lengths, radius, is_si = in_si(lengths=lengths, radius=radius)
+    return _made(shape, lengths, form="flat-punch", radius=radius, tilt=tilt, is_si=is_si)
 
 
-@checked
+@named
 def wave(
     shape: Shape,
     lengths: Lengths,
@@ -214,8 +219,9 @@ def wave(
     tilt: Tilt = None,
 ) -> Topography:
     """Makes a wave, A cos(2πmₓx/Lx) cos(2πmᵧy/Ly) with its amplitude A and the periods (mₓ, mᵧ); see `sphere`."""
+    lengths, amplitude, is_si = in_si(lengths=lengths, amplitude=amplitude)
     body: dict[str, Any] = {"form": "wave", "amplitude": amplitude, "periods": np.ravel(periods)}
-    return _made(shape, lengths, tilt=tilt, periodic=None if tilt else True, **body)
+    return _made(shape, lengths, tilt=tilt, periodic=None if tilt else True, is_si=is_si, **body)
 
 
 def _made(
@@ -226,13 +232,14 @@ def _made(
     tilt: Tilt,
     periodic: bool | None = None,
     seed: int | None = None,
+    is_si: bool,
     **body: Any,
 ) -> Topography:
     nodes, is_line = _nodes(shape)
     both = side_lengths(lengths, nodes)
     body["tilt"] = None if tilt is None else np.ravel(tilt)
     heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
-    unit = "m" if given.get() else None
+    unit = "m" if is_si else None
     return Topography(heights, both, unit, periodic, seed=seed, _is_line=is_line)
 
 
@@ -242,7 +249,7 @@ def _nodes(shape: Shape) -> tuple[Any, bool]:
     return (nodes[0], 1) if len(nodes) == 1 else nodes, len(nodes) == 1
 
 
-@checked
+@named
 def fourier(
     coefficients: ArrayLike | str | os.PathLike[str],
     shape: Shape,
@@ -277,7 +284,8 @@ def fourier(
     >>> f"{wave.heights.max():.3f}"
     '1.000'
     """
-    if given.get() and fourier_unit is None:
+    lengths, fourier_unit, is_si = in_si(lengths=lengths, fourier_unit=fourier_unit)
+    if is_si and fourier_unit is None:
         raise ValueError("the side lengths have a unit, but the coefficients have none: give fourier_unit, as '0.1mm'")
     nodes, is_line = _nodes(shape)
     both = side_lengths(lengths, nodes)
@@ -287,11 +295,11 @@ def fourier(
         columns = "they must be qX, qY, and the real and the imaginary part"
         raise ValueError(f"coefficients have {rows.shape[1]} columns: {columns}")
     heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else float(fourier_unit))
-    unit = "m" if given.get() else None
+    unit = "m" if is_si else None
     return Topography(heights, both, unit, periodic=True, source=source, _is_line=is_line)
 
 
-@checked
+@named
 def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> SurfaceStatistics:
     """Computes the statistics of heights, slopes and curvatures.
 
@@ -308,11 +316,12 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
     -------
     SurfaceStatistics
     """
-    given = taken(heights, lengths, axes)
-    return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths).values())
+    lengths, is_si = in_si(lengths=lengths)
+    topography = taken(heights, lengths, axes, is_si)
+    return SurfaceStatistics(*_asperity.statistics(topography.heights, topography.lengths).values())
 
 
-@checked
+@named
 def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> PowerSpectralDensity:
     """Computes the power spectral density, averaged over directions.
 
@@ -334,11 +343,12 @@ def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrde
     >>> f"{np.sqrt((densities * waves).sum() * cell):.4f}"
     '0.0100'
     """
-    given = taken(heights, lengths, axes)
-    return PowerSpectralDensity(*_asperity.spectrum(given.heights, sides(given)))
+    lengths, is_si = in_si(lengths=lengths)
+    topography = taken(heights, lengths, axes, is_si)
+    return PowerSpectralDensity(*_asperity.spectrum(topography.heights, sides(topography)))
 
 
-@checked
+@named
 def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> float | None:
     """Finds the wavelength at which the power spectral density flattens to a floor of noise.
 
@@ -366,5 +376,6 @@ def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: A
     >>> 2 / 128 < surface.knee_wavelength(noisy, 1.0) < 0.2
     True
     """
-    given = taken(heights, lengths, axes)
-    return _asperity.knee_wavelength(given.heights, sides(given))
+    lengths, is_si = in_si(lengths=lengths)
+    topography = taken(heights, lengths, axes, is_si)
+    return _asperity.knee_wavelength(topography.heights, sides(topography))

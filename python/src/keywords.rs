@@ -63,25 +63,29 @@ pub struct Keywords {
     pub given: Given,
     pub law: Option<Law>,
     pub quantities: Quantities,
+    /// Whether numbers without a unit are in SI units
+    pub numbers_are_si: bool,
+}
+
+/// The quantities of keywords, whose numbers without a unit may be in SI units.
+pub fn quantities_of(given: &Given, numbers_are_si: bool) -> Quantities {
+    if numbers_are_si { given.quantities().in_si() } else { given.quantities() }
 }
 
 #[pymethods]
 impl Keywords {
     #[new]
-    #[pyo3(signature = (keywords, law, is_si=false))]
-    fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
+    #[pyo3(signature = (keywords, law, numbers_are_si=false))]
+    fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, numbers_are_si: bool) -> PyResult<Self> {
         let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
         let law = law.map(Law::of).transpose()?;
-        // numbers of a solution in SI units, next to strings, say nothing of units
-        let quantities = match is_si {
-            true => Quantities::default(),
-            false => Quantities::all([
-                given.quantities(),
-                law.as_ref().map(|law| law.given.quantities()).unwrap_or_default(),
-            ]),
-        };
-        quantities.check(Skin::Keywords).map_err(reason)?;
-        Ok(Self { given, law, quantities })
+        let of_law = law.as_ref().map(|law| law.given.quantities()).unwrap_or_default();
+        let quantities = Quantities::all([quantities_of(&given, numbers_are_si), of_law]);
+        // the numbers of a law in SI units say nothing of units
+        if !numbers_are_si {
+            quantities.check(Skin::Keywords).map_err(reason)?;
+        }
+        Ok(Self { given, law, quantities, numbers_are_si })
     }
 
     /// The numbers of a key, in SI units if they have units.

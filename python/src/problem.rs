@@ -17,7 +17,7 @@ use pyo3::types::PyDict;
 
 use crate::functions::symbol_of;
 use crate::inputs::{Begin, Map, surface};
-use crate::keywords::{Keywords, known, read};
+use crate::keywords::{Keywords, known, quantities_of, read};
 use crate::law::Law;
 use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
@@ -31,6 +31,7 @@ pub struct Problem {
     session: Mutex<AnySession>,
     given: Given,
     quantities: Quantities,
+    numbers_are_si: bool,
     /// The surface, if further solves are to follow the first
     surface: Option<Arc<Surface>>,
     is_used: bool,
@@ -57,9 +58,11 @@ impl Problem {
 
     /// What was given for the problem and for several parts of a call, whose quantities all have units, or none has.
     fn given(&mut self, parts: &[Given]) -> PyResult<Given> {
-        let of_call = parts.iter().map(Given::quantities);
+        let of_call = parts.iter().map(|part| quantities_of(part, self.numbers_are_si));
         let quantities = Quantities::all(std::iter::once(self.quantities.clone()).chain(of_call));
-        quantities.check(Skin::Keywords).map_err(reason)?;
+        if !self.numbers_are_si {
+            quantities.check(Skin::Keywords).map_err(reason)?;
+        }
         either!(session = self.session() => session.inputs.given = quantities.given());
         Ok(Given::all(std::iter::once(&self.given).chain(parts)))
     }
@@ -107,8 +110,8 @@ impl Problem {
         symbol: Option<(Py<PyAny>, String, bool)>,
         is_kept: bool,
     ) -> PyResult<Self> {
-        let Keywords { given, law, quantities } = keywords;
-        let (given, quantities) = (given.clone(), quantities.clone());
+        let Keywords { given, law, quantities, numbers_are_si } = keywords;
+        let (given, quantities, numbers_are_si) = (given.clone(), quantities.clone(), *numbers_are_si);
         let mut scene = given.scene().map_err(reason)?;
         let at = At { py, pool: Pool::of(given.threads())?, observer: None };
         let surface = surface(map.heights.to_array()?, map.lengths, given.absent_missing())?;
@@ -159,7 +162,8 @@ impl Problem {
             Precision::F64 => Either::F64(session(&at, &scene, input, inputs)?),
             Precision::F32 => Either::F32(session(&at, &scene, input, inputs)?),
         };
-        Ok(Self { session: Mutex::new(session), given, quantities, surface: kept, is_used: false, beyond_theory })
+        let session = Mutex::new(session);
+        Ok(Self { session, given, quantities, numbers_are_si, surface: kept, is_used: false, beyond_theory })
     }
 
     /// The equilibrium at a load.

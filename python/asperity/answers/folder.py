@@ -69,7 +69,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     # absent nodes have no gap
     fields["gap"] = np.where(np.isnan(fields["gap"]), np.inf, fields["gap"])
     if heights is not None:
-        fields["heights"] = taken(heights, si=told["length_unit"] == "m").heights
+        fields["heights"] = taken(heights, is_si=told["length_unit"] == "m").heights
         if fields["heights"].shape != shape:
             raise ValueError(f"heights have shape {fields['heights'].shape}: those that were solved have {shape}")
     if fields["heights"] is not None:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from .. import _asperity
 from ..common.summary import summary
 from ..common.types import Boundary, Lengths, Quantity
-from ..common.units import number
+from ..common.units import in_si, number
 from ..common.warnings import ConvergenceWarning, warn
-from ..common.words import checked
+from ..common.words import named
 from ..maps.arrays import field_of
 from ..maps.heights import Heights, taken
 from ..maps.topography import Topography
@@ -82,7 +82,7 @@ class Leakage(NamedTuple):
         return "\n".join(lines)
 
 
-@checked
+@named
 def leakage(
     gap: Solution | Heights,
     lengths: Lengths | None = None,
@@ -137,6 +137,7 @@ def leakage(
     >>> found.y.grid_error < 1e-3
     True
     """
+    lengths, absent_gap, viscosity, is_si = in_si(lengths=lengths, absent_gap=absent_gap, viscosity=viscosity)
     absent = None if absent_gap is None else number("absent_gap", absent_gap)
     viscous = None if viscosity is None else number("viscosity", viscosity)
     solved = isinstance(gap, Solution)
@@ -145,9 +146,9 @@ def leakage(
         if lengths is not None:
             raise ValueError("the solution has its side lengths: leave lengths out")
         name, value = ("absent_gap", absent) if viscous is None else ("viscosity", viscous)
-        unit, own = gap._unit_beside(name, value), gap.flow_boundary
+        unit, own = gap._unit_beside(name, value, is_si), gap.flow_boundary
         gap = Topography(field_of(gap.gap, "gaps"), gap.lengths, unit)
-    topography = taken(gap, lengths, name="gaps")
+    topography = taken(gap, lengths, is_si=is_si, name="gaps")
     field, sides = topography.heights, topography.lengths or (1.0, 1.0)
     found = _asperity.leakage(field, solved, sides, boundary or own, absent, viscous, tolerance, max_iterations)
     if found["shortfall"] is not None:

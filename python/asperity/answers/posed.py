@@ -111,10 +111,10 @@ class Posed:
     ) -> Solution:
         """The solution of other heights and a share of the modulus; a solution to start from chooses the branch."""
         (modulus,) = self._given.numbers("modulus") or [0.0]
-        keys = {**self._keys, "modulus": f"{share * modulus!r}Pa" if self._given.is_si else share * modulus}
+        keys = {**self._keys, "modulus": share * modulus}
         if isinstance(start, Solution):
             keys.pop("branch", None)
-        contact, given = copy.copy(self), _asperity.Keywords(keys, self.own_law)
+        contact, given = copy.copy(self), _asperity.Keywords(keys, self.own_law, self._given.is_si)
         contact.topography = replace(self.topography, heights=heights)
         found = self._problem(contact.topography, given, False).solve(load, self._start(start), observe)
         for warning in found["told"]["warnings"]:

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _asperity
 from ..common.optional import package
 from ..common.types import Boundary, Quantity, Report, Status
-from ..common.units import given, in_unit
-from ..common.words import checked
+from ..common.units import in_si, in_unit
+from ..common.words import named
 from ..maps.arrays import field_of
 from ..maps.topography import Topography
 from ..plot import figures
@@ -190,7 +190,7 @@ class Solution:
         x, y = (None if along is None else Constriction(*along) for along in found)
         return Percolation(x, y)
 
-    @checked
+    @named
     def conductance(self, resistivities: tuple[Quantity, Quantity]) -> Conductance:
         """Conductance of the contact between two half-spaces, by its stiffness at fixed spots (Barber's identity).
 
@@ -221,11 +221,12 @@ class Solution:
             raise ValueError(f"the body is a {body}: conductance is that between half-spaces")
         if self._told["wall"] != "hard":
             raise ValueError(f"the wall is {self._told['wall']}: only a hard wall says where the surfaces conduct")
+        resistivities, is_si = in_si(resistivities=resistivities)
         first, second = (float(one) for one in resistivities)
         gap = field_of(self.whole_gap, "gaps")
         shares = zip(self.lengths, gap.shape, self._told["shape"], strict=True)
-        unit = self._unit_beside("resistivities", (first, second))
-        metre = in_unit("length_unit", unit) if given.get() else 1.0
+        unit = self._unit_beside("resistivities", (first, second), is_si)
+        metre = in_unit("length_unit", unit) if is_si else 1.0
         lx, ly = (metre * (length if nodes == part else length / part * nodes) for length, nodes, part in shares)
         per_area, _, error = _asperity.conductance(gap <= 0, (lx, ly), self.boundary, (first, second))
         of_grid = self._told["stiffness_error"] if self._told["law"] == "none" else None
@@ -299,10 +300,10 @@ class Solution:
         lx, ly = self._told["lengths"]
         return (lx, ly)
 
-    def _unit_beside(self, name: str, value: Any) -> str | None:
+    def _unit_beside(self, name: str, value: Any, is_si: bool) -> str | None:
         """The unit of lengths, without which a solution refuses a quantity with a unit."""
         unit = self._told["length_unit"]
-        if unit is None and given.get():
+        if unit is None and is_si:
             raise ValueError(
                 f"{name} is {value} in SI units, but the lengths of the solution have no unit: give a number in the units of "
                 "the solution"

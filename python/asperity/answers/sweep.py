@@ -83,10 +83,8 @@ class Sweep(Rows[Solution]):
         return figures.sweep(self.columns, name, theories, ax, length, pressure)
 
 
-def _theories(contact: Posed) -> tuple[Persson, GreenwoodWilliamson]:
+def _theories(contact: Posed) -> tuple[Persson | GreenwoodWilliamson, ...]:
     """The theories of a contact problem that has no more than they have."""
     if contact.beyond_theory is not None:
         raise ValueError(contact.beyond_theory)
-    modulus = f"{contact.modulus!r}Pa" if contact.pressure_unit else contact.modulus
-    heights = contact.topography
-    return Persson.of(heights, modulus=modulus), GreenwoodWilliamson.of(heights, modulus=modulus)
+    return tuple(theory._by(contact.topography, contact.modulus) for theory in (Persson, GreenwoodWilliamson))

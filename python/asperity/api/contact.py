@@ -49,7 +49,7 @@ from ..maps.heights import Heights, axes_of, taken
 from ..maps.pair import along_both, between
 from ..maps.topography import Topography, sides
 from ..relaxation.viscoelastic import Viscoelastic
-from .keywords import OF_LAWS, given, refuse_beside, replace_spring
+from .keywords import OF_LAWS, given, refuse_beside, replace_spring, split_springs
 
 R = TypeVar("R", bound=Rows[Any])
 T = TypeVar("T")
@@ -128,6 +128,13 @@ class Contact(Posed):
     ) -> None:
         self._pose(heights, lengths, axes, given(Contact.__init__, locals()), is_kept=True)
 
+    @classmethod
+    def from_numbers(cls, topography: Topography, keys: dict[str, Any], is_si: bool) -> Contact:
+        """The problem of numbers, which are in SI units or have no units, to be solved once."""
+        contact = cls.__new__(cls)
+        contact._pose(topography, None, None, keys, is_kept=False, is_si=is_si)
+        return contact
+
     def _pose(
         self,
         heights: Heights,
@@ -176,7 +183,7 @@ class Contact(Posed):
         self._keys, self._is_si, self._given = keys, is_si, _asperity.Keywords(keys, law, is_si)
         si = self._given.is_si
         self.pressure_unit = "Pa" if si else None
-        self.topography = taken(heights, self._given.numbers("lengths"), axes, si=si)
+        self.topography = taken(heights, self._given.numbers("lengths"), axes, is_si=si)
         boundary, absent_missing = keys.get("boundary", "periodic"), bool(keys.get("absent_missing", False))
         facing, shift = None, self._given.numbers("shift")
         if against is not None:

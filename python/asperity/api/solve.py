@@ -361,6 +361,5 @@ def stability(
         )
     keys["absent_missing"], keys["whole"] = report["absent_nodes"] > 0, report["part"] == "whole"
     keys["branch"] = None
-    contact = Contact.__new__(Contact)
-    contact._pose(solution.topography, None, None, keys, False, is_si=report["pressure_unit"] is not None)
+    contact = Contact.from_numbers(solution.topography, keys, report["pressure_unit"] is not None)
     return contact.stability(solution, **given(Contact.stability, load))

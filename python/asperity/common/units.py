@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
 
 from .. import _asperity
 
-#: Whether the numbers of the call that runs have units, and are in SI units.
-given: ContextVar[bool] = ContextVar("given", default=False)
-
 #: Keys of the dimensions of units, with an example.
 _DIMENSIONS = {"length": ("approach", "nm"), "pressure": ("mean_pressure", "MPa"), "force": ("normal_force", "nN")}
+
+
+def in_si(**quantities: Any) -> tuple[Any, ...]:
+    """The numbers of quantities by their names, and whether they are in SI units: all are texts with a unit, or none."""
+    numbers, is_si = _asperity.in_si([*quantities.items()])
+    return (*numbers, is_si)
 
 
 def in_unit(name: str, unit: str | None) -> float:

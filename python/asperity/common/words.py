@@ -6,10 +6,9 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 from .. import _asperity
-from .units import given
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -55,28 +54,5 @@ def named(function: Callable[P, R]) -> Callable[P, R]:
     def call(*args: P.args, **keywords: P.kwargs) -> R:
         check(name, keywords, own)
         return function(*args, **keywords)
-
-    return call
-
-
-def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """A function of the package, as users see it.
-
-    It reads quantities with units, and suggests what an unknown keyword may mean.
-    """
-    known = tuple(inspect.signature(function).parameters)
-
-    @functools.wraps(function)
-    def call(*args: P.args, **kwargs: P.kwargs) -> R:
-        check(function.__name__, kwargs, known)
-        count = min(len(args), len(known))
-        values, is_si = _asperity.in_si([*zip(known, args), *kwargs.items()])
-        numbers: Any = (*values[:count], *args[count:])
-        keywords: Any = dict(zip(kwargs, values[count:]))
-        token = given.set(is_si)
-        try:
-            return function(*numbers, **keywords)
-        finally:
-            given.reset(token)
 
     return call

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..common.types import Quantity
-from ..common.units import given, in_unit, number
+from ..common.units import in_unit, number
 from .branches import ordered
 from .curve import Curve, Direction
 from .tip_table import TipTable
@@ -50,24 +50,24 @@ def asked(
     jumps: bool,
     length_unit: str | None,
     force_unit: str | None,
+    is_si: bool,
 ) -> Asked:
     """Keywords of a fit, checked."""
     if (radius is None) == (tip is None):
         raise TypeError(f"radius is {radius!r}, and tip is {tip!r}: give one of them")
     if not isinstance(tip, TipTable | None):
         raise TypeError(f"tip is a {type(tip).__name__}: make its table first, tip=asperity.TipTable(heights, ...)")
-    si = given.get()
     if tip is not None:
-        if spring_stiffness is not None and si != tip.is_si:
+        if spring_stiffness is not None and is_si != tip.is_si:
             raise ValueError(f"spring_stiffness is {spring_stiffness!r}, and the table is {tip!r}: give all units, or none")
-        si = tip.is_si
+        is_si = tip.is_si
     if direction not in (None, "approach", "withdrawal"):
         raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
     compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
     scipy("special")
     shape = cast(Tip, tip or Paraboloid(_positive("radius", radius)))
     poisson = None if poisson is None else number("poisson", poisson)
-    return Asked(shape, compliance, direction, _models(shape, model), jumps, poisson, si, length_unit, force_unit)
+    return Asked(shape, compliance, direction, _models(shape, model), jumps, poisson, is_si, length_unit, force_unit)
 
 
 def _models(tip: Tip, model: str | None) -> list[str]:

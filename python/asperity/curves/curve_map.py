@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..common.optional import package
 from ..common.progress import counted
 from ..common.types import Lengths, Quantity
-from ..common.units import given, in_unit
+from ..common.units import in_si, in_unit
 from ..common.warnings import InputWarning, warn
-from ..common.words import checked
+from ..common.words import named
 from ..plot import figures
 from .asked import Asked, asked
 from .curve import Direction
@@ -189,7 +189,7 @@ def _kind(text: str) -> str:
     return text.partition(": ")[2].partition(";")[0] or text
 
 
-@checked
+@named
 def fit_curves(
     curves: Curves,
     *,
@@ -255,7 +255,7 @@ def fit_curves(
     >>> np.round(found.modulus.value[:2] / 1e9).tolist(), str(found.reason[2])
     ([1.0, 2.0], 'force is 0.0 at all points: a curve has it change from point to point')
     """
-    si = given.get()
+    radius, spring_stiffness, lengths, is_si = in_si(radius=radius, spring_stiffness=spring_stiffness, lengths=lengths)
     sides: Any = None
     if isinstance(curves, str | os.PathLike):
         found = Reader(curves, None, None, None, None, metres_and_newtons(spring_stiffness, sensitivity)).map()
@@ -264,17 +264,12 @@ def fit_curves(
         stiffness = found.stiffness if spring_stiffness is None else spring_stiffness
         if tip is not None and not tip.is_si:
             raise ValueError(f"{curves} is in SI units, and the table is {tip!r}: make it with units")
-        token = given.set(True)
-        try:
-            keywords = asked(radius, tip, stiffness, poisson, direction, model, jumps, "m", "N")
-        finally:
-            given.reset(token)
-        si = True
+        keywords = asked(radius, tip, stiffness, poisson, direction, model, jumps, "m", "N", True)
     else:
         pairs, shape = _paired(curves, shape)
-        keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, length_unit, force_unit)
-        si = keywords.is_si
-        if si:
+        units = length_unit, force_unit
+        keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, *units, is_si)
+        if keywords.is_si:
             for name, unit in (("length_unit", length_unit), ("force_unit", force_unit)):
                 in_unit(name, unit)
     if lengths is not None:

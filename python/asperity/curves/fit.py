@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from .. import _asperity
 from ..common.types import Quantity
+from ..common.units import in_si
 from ..common.warnings import InputWarning, warn
-from ..common.words import checked
+from ..common.words import named
 from ..plot import figures
 from .asked import Asked, asked
 from .curve import Direction
@@ -144,7 +145,7 @@ def _digits(factor: float, found: Estimate) -> list[str]:
     return [f"{end:.{min(max(digits, 4), 12)}g}" for end in (value, lower, upper)]
 
 
-@checked
+@named
 def fit_curve(
     z: ArrayLike,
     force: ArrayLike,
@@ -227,7 +228,9 @@ def fit_curve(
     >>> fit.modulus.lower < 2e9 < fit.modulus.upper, fit.work_of_adhesion.lower
     (True, 0.0)
     """
-    keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, length_unit, force_unit)
+    radius, spring_stiffness, is_si = in_si(radius=radius, spring_stiffness=spring_stiffness)
+    units = length_unit, force_unit
+    keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, *units, is_si)
     found, told = fitted(z, force, keywords)
     for message in told:
         warn(message, InputWarning)

@@ -12,7 +12,6 @@ import numpy as np
 
 from .. import _asperity
 from ..api.contact import Contact
-from ..api.tables import cycle
 from ..bodies.body import Coating, Layer
 from ..common.types import AxisOrder, Lengths, OwnLaw, Quantity
 from ..common.units import number
@@ -111,10 +110,9 @@ class TipTable:
         contact = Contact(heights, lengths, axes=axes, modulus=modulus, **elastic, **adhesion)
         self.topography, softest = contact.topography, contact.modulus
         if isinstance(body, Coating):
-            hard = _asperity.quantity("modulus", body.modulus) if isinstance(body.modulus, str) else body.modulus
-            self._hardness = hard / softest
+            self._hardness = float(body.modulus) / softest
         #: what an approach has beside the mean gap, over the mean pressure and times E*
-        self._compliance = self._far(contact, modulus) if body is not None else 0.0
+        self._compliance = self._far(softest) if body is not None else 0.0
         #: the cubic roots of w/E* over the greatest: displacements by adhesion go as powers of it
         roots = np.linspace(0.0, 1.0, works + 1) if contact.adheres else np.zeros(1)
 
@@ -131,7 +129,8 @@ class TipTable:
         self.ratio, self.error, self.radius, self.is_smooth = 0.0, 0.0, high, False
         if contact.adheres:
             self.fewer, self.tabor = {"no adhesion": 1, "adhesion": 0}, np.ones(1)
-            row = contact.sweep(**self._loads([low])).run().rows[0]
+            numbers = Contact.from_numbers(self.topography, {**elastic, **adhesion, "modulus": softest}, si)
+            row = numbers.sweep(**self._loads([low])).run().rows[0]
             work, own = row["work_of_adhesion"], cast(Any, contact.own_law)
             if work is None:
                 # of a law that does not tell it, the mean at contact
@@ -169,32 +168,29 @@ class TipTable:
         heights = self.topography.heights
         return float(heights.max() - heights.mean())
 
-    def _far(self, contact: Contact, modulus: Quantity) -> float:
+    def _far(self, modulus: float) -> float:
         """The compliance of the body beside its waves, by a solve at an approach, times E*."""
-        held = f"{self.high!r}m" if self.is_si else self.high
-        bare = Contact(self.topography, modulus=modulus, body=self._body, tolerance=1e-8)
-        solved = bare.solve(approach=held)
-        return (self.high - self._top() + solved.mean_gap) / solved.mean_pressure * contact.modulus
+        keys = {"modulus": modulus, "body": self._body, "tolerance": 1e-8}
+        solved = Contact.from_numbers(self.topography, keys, self.is_si).solve(approach=self.high)
+        return (self.high - self._top() + solved.mean_gap) / solved.mean_pressure * modulus
 
     def _loads(self, approaches: list[float]) -> dict[str, Any]:
         """Approaches as loads, over a layer as mean gaps."""
         if self._body is not None:
             approaches = [self._top() - approach for approach in approaches]
-        lengths = [f"{length!r}m" for length in approaches] if self.is_si else approaches
-        return {"approaches": lengths} if self._body is None else {"mean_gaps": lengths, "start": "apart"}
+        return {"approaches": approaches} if self._body is None else {"mean_gaps": approaches, "start": "apart"}
 
     def _states(self, modulus: float, keys: dict[str, Any]) -> tuple[Way, Way]:
         """The approach and the withdrawal."""
         # with more of the steps about contact
         ends = [self.low, 0.25 * self.low, 0.25 * self.high, self.high]
         loads = self._loads([*ends, *ends[-2::-1]])
-        given: Any = f"{modulus!r}Pa" if self.is_si else modulus
         # a fit asks for more than a loop
-        keys = {"tolerance": 1e-6, **keys}
+        keys = {"tolerance": 1e-6, **keys, "modulus": modulus, "threads": 1}
         if isinstance(self._body, Coating):
-            hard = self._hardness * modulus
-            keys["body"] = replace(self._body, modulus=f"{hard!r}Pa" if self.is_si else hard)
-        columns = cycle(self.topography, modulus=given, steps=self._steps, threads=1, **loads, **keys).columns
+            keys["body"] = replace(self._body, modulus=self._hardness * modulus)
+        contact = Contact.from_numbers(self.topography, keys, self.is_si)
+        columns = contact.cycle(steps=self._steps, **loads).columns
         approach, load = columns["approach"], columns["normal_force"] / modulus
         if self._body is not None:
             yielded = self._compliance / modulus * columns["mean_pressure"]

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _asperity
-from ..common.units import number
+from ..common.units import in_si, number
+
+F = TypeVar("F", bound="Formula")
 
 
 class Formula:
@@ -22,19 +24,30 @@ class Formula:
 
     _of: Any
     _texts: dict[str, str]
+    _is_si: bool
 
     def __post_init__(self) -> None:
-        given = {name: getattr(self, name) for name in self._names()}
-        for name, found in zip(given, _asperity.in_si([*given.items()])[0]):
+        typed = {name: getattr(self, name) for name in self._names()}
+        *numbers, is_si = in_si(**typed)
+        for name, value in zip(typed, numbers):
             # a text that is left is one of a number without a dimension, and is refused
-            found = _asperity.quantity(name, found) if isinstance(found, str) else found
-            object.__setattr__(self, name, number(name, found))
-        object.__setattr__(self, "_texts", {name: text for name, text in given.items() if isinstance(text, str)})
-        object.__setattr__(self, "_of", self._core(*(getattr(self, field.name) for field in fields(self))))  # type: ignore[arg-type]
+            value = _asperity.quantity(name, value) if isinstance(value, str) else value
+            object.__setattr__(self, name, number(name, value))
+        object.__setattr__(self, "_texts", {name: text for name, text in typed.items() if isinstance(text, str)})
+        object.__setattr__(self, "_is_si", is_si)
+        object.__setattr__(self, "_of", self._core(*self._values()))
+
+    def _in_si(self: F, texts: dict[str, str]) -> F:
+        """The same with its numbers in SI units, and those that were typed as texts with a unit."""
+        object.__setattr__(self, "_texts", texts)
+        object.__setattr__(self, "_is_si", True)
+        return self
+
+    def _values(self) -> tuple[Any, ...]:
+        return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        given = (self._texts.get(field.name, getattr(self, field.name)) for field in fields(self))  # type: ignore[arg-type]
-        return type(self), tuple(given)
+        return type(self), self._values(), {"_texts": self._texts, "_is_si": self._is_si}
 
     def __repr__(self) -> str:
         return f"{self._called()}\n  {self.about}"
@@ -55,7 +68,7 @@ class Formula:
         if typed.dtype.kind != "U":
             return values
         found = np.array([_asperity.quantity(name, str(text)) for text in typed.flat]).reshape(typed.shape)
-        if not self._texts:
+        if not self._is_si:
             first = typed.flat[0]
             raise ValueError(f"{name} is {first}, with a unit, but {self._called()} has none: give both units, or neither")
         return found

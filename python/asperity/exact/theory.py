@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from .. import _asperity, surface
 from ..common.types import AxisOrder, Lengths, Quantity
+from ..common.units import in_si
 from ..maps.heights import Heights, taken
 from ..maps.topography import Topography
 from ..surface import PowerSpectralDensity
@@ -40,10 +41,12 @@ class _Theory(Formula):
         modulus : float
             Contact modulus E*, a pressure.
         """
-        return cls._by(_surface_of(heights, lengths, axes, modulus), modulus)
+        sides, number, is_si = in_si(lengths=lengths, modulus=modulus)
+        theory = cls._by(taken(heights, sides, axes, is_si), number)
+        return theory._in_si({"modulus": str(modulus)}) if is_si else theory
 
     @classmethod
-    def _by(cls: type[T], topography: Topography, modulus: Quantity) -> T:
+    def _by(cls: type[T], topography: Topography, modulus: float) -> T:
         raise NotImplementedError
 
     def contact_fraction(self, mean_pressure: ArrayLike) -> Any:
@@ -94,7 +97,7 @@ class Persson(_Theory):
     _core = _asperity.Persson
 
     @classmethod
-    def _by(cls, topography: Topography, modulus: Quantity) -> Persson:
+    def _by(cls, topography: Topography, modulus: float) -> Persson:
         return cls(surface.statistics(topography).rms_slope, modulus, surface.spectrum(topography))
 
     def mean_gap(self, mean_pressure: ArrayLike) -> Any:
@@ -151,15 +154,9 @@ class GreenwoodWilliamson(_Theory):
     _core = _asperity.GreenwoodWilliamson
 
     @classmethod
-    def _by(cls, topography: Topography, modulus: Quantity) -> GreenwoodWilliamson:
+    def _by(cls, topography: Topography, modulus: float) -> GreenwoodWilliamson:
         found = surface.statistics(topography)
-        unit = "m" if isinstance(modulus, str) else None
-        return cls(
-            f"{found.rms_height:.8g}m" if unit else found.rms_height,
-            found.rms_slope,
-            f"{found.rms_curvature:.8g}m-1" if unit else found.rms_curvature,
-            modulus,
-        )
+        return cls(found.rms_height, found.rms_slope, found.rms_curvature, modulus)
 
     @property
     def asperity_density(self) -> float:
@@ -175,9 +172,3 @@ class GreenwoodWilliamson(_Theory):
     def rms_asperity_height(self) -> float:
         """Root mean square σ of their heights, √((1 − 0.8968/α) m₀) with Nayak's parameter α."""
         return float(self._of.asperities[2])
-
-
-def _surface_of(heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, modulus: Quantity) -> Topography:
-    """The surface of a theory, in metres where the numbers of the call have units."""
-    (sides, _), is_si = _asperity.in_si([("lengths", lengths), ("modulus", modulus)])
-    return taken(heights, sides, axes, is_si)

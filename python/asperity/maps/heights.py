@@ -9,7 +9,6 @@ from typing import Any, TypeAlias
 from numpy.typing import ArrayLike
 
 from ..common.types import AxisOrder, HeightMap
-from ..common.units import given as units
 from .arrays import array_of, is_data_array, labelled, order_of, side_lengths
 from .files import read
 from .packages import from_data_array, from_topography, is_topography
@@ -20,11 +19,11 @@ Heights: TypeAlias = ArrayLike | Topography | HeightMap | str | os.PathLike[str]
 
 
 def taken(
-    heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, si: bool | None = None, name: str = "heights"
+    heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, is_si: bool = False, name: str = "heights"
 ) -> Topography:
     """The map of whatever holds heights, with the side lengths that are given for it; in metres with units."""
     topography = found(heights, axes, name)
-    if units.get() if si is None else si:
+    if is_si:
         topography = in_metres(topography)
     return topography if lengths is None else replace(topography, lengths=side_lengths(lengths, topography.heights.shape))
 

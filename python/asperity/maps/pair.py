@@ -7,8 +7,8 @@ from typing import overload
 
 from .. import _asperity
 from ..common.types import AxisOrder, Boundary, Quantity
-from ..common.units import given, number
-from ..common.words import checked
+from ..common.units import in_si, number
+from ..common.words import named
 from .heights import Heights, knows_axes, taken
 from .topography import Topography
 
@@ -44,7 +44,7 @@ def contact_modulus(
 def contact_modulus(
     young: str, poisson: float, other_young: str | None = None, other_poisson: float | None = None
 ) -> str: ...
-@checked
+@named
 def contact_modulus(
     young: Quantity,
     poisson: float,
@@ -82,8 +82,9 @@ def contact_modulus(
     """
     if (other_young is None) != (other_poisson is None):
         raise TypeError("a second body has two parameters: give other_young and other_poisson, or neither")
+    young, other_young, is_si = in_si(young=young, other_young=other_young)
     bodies = [(number("young", young), number("poisson", poisson))]
     if other_young is not None:
         bodies.append((number("other_young", other_young), number("other_poisson", other_poisson)))
     modulus = _asperity.contact_modulus(bodies)
-    return f"{modulus!r}Pa" if given.get() else modulus
+    return f"{modulus!r}Pa" if is_si else modulus

@@ -10,10 +10,9 @@ import numpy as np
 
 from .. import _asperity
 from ..common.types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, ScanAxis, Trend
-from ..common.units import given as units
-from ..common.units import number, plain
+from ..common.units import in_si, number, plain
 from ..common.warnings import warn_of_input
-from ..common.words import checked
+from ..common.words import named
 from .arrays import side_lengths
 from .files import read
 from .heights import Heights, found
@@ -24,7 +23,7 @@ _SCARS = 0.667
 _SPIKES = 10.0
 
 
-@checked
+@named
 def prepare(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -151,9 +150,10 @@ def prepare(
         "mirror": mirror,
         "resample": resample,
     }
+    lengths, cut_off_wavelength, is_si = in_si(lengths=lengths, cut_off_wavelength=cut_off_wavelength)
     both = None if lengths is None else side_lengths(lengths, given.heights.shape)
     cut_off = None if cut_off_wavelength is None else number("cut_off_wavelength", cut_off_wavelength)
-    made, log, warnings = _asperity.prepare(given, both, cut_off, units.get(), plain(keys))
+    made, log, warnings = _asperity.prepare(given, both, cut_off, is_si, plain(keys))
     for warning in warnings:
         warn_of_input(warning)
     periodic = True if mirror or window else given.periodic

@@ -16,12 +16,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _asperity
 from ..answers.posed import Posed
 from ..answers.rows import Rows
 from ..answers.solution import Solution, Start
 from ..bodies.body import Symbol
-from ..common.units import number
+from ..common.units import in_si, number
 from ..common.words import PLURALS
 from ..laws.formulas import JKR
 from ..laws.identity import unwrapped
@@ -136,7 +135,7 @@ class Viscoelastic(Rows[Moment]):
         self._ended, self._seconds_left = False, None
         self._moment: Moment | None = None
         self._body = _Body(_series(keys.get("prony")), contact.topography.heights.shape)
-        self._load, self._path = _path(keys)
+        self._load, self._path = _path(keys, contact._given.is_si)
         self.names = ("time", *_OF_SOLUTIONS, "corrected_contact_fraction", *_OF_MOMENTS)
         self.rows: list[dict[str, Any]] = []
 
@@ -190,10 +189,10 @@ class Viscoelastic(Rows[Moment]):
         self._ended = solution.status in ("detached", "stopped")
         return self._moment
 
-    def _shifted(self, load: float | str, by: float) -> dict[str, float | str]:
+    def _shifted(self, load: float, by: float) -> dict[str, float]:
         """The load of the lowered heights, whose approach counts from another first touch."""
         if self._load == "approach":
-            load = f"{_asperity.quantity(self._load, load) + by!r}m" if isinstance(load, str) else load + by
+            load += by
         return {self._load: load}
 
     def __repr__(self) -> str:
@@ -247,7 +246,7 @@ def _series(prony: Any) -> list[tuple[float, float]]:
     return [(share / max(total, 1.0), time) for share, time in pairs]
 
 
-def _path(keys: dict[str, Any]) -> tuple[str, list[tuple[float, float | str]]]:
+def _path(keys: dict[str, Any], is_si: bool) -> tuple[str, list[tuple[float, float]]]:
     """The kind of the loads, and the moments with a load each."""
     given = [name for name in LOADS if name in keys]
     if len(given) != 1:
@@ -255,8 +254,10 @@ def _path(keys: dict[str, Any]) -> tuple[str, list[tuple[float, float | str]]]:
         raise ValueError(f"loads are {' and '.join(given) or 'missing'}: give one list of {known}, a load at each of the times")
     times, loads = (_listed(name, keys.get(name)) for name in ("times", given[0]))
     key = LOADS[given[0]]
-    for load in loads:
-        _asperity.quantity(key, load) if isinstance(load, str) else number(key, load)
+    loads, have_units = in_si(**{given[0]: [load if isinstance(load, str) else number(key, load) for load in loads]})
+    if have_units != is_si and any(loads):
+        kind, other = ("with", "none") if have_units else ("without", "one")
+        raise ValueError(f"{given[0]} are {kind} a unit, and modulus has {other}: give both units, or neither")
     moments = [number("time", time) for time in times]
     if len(moments) != len(loads) or not moments:
         raise ValueError(f"there are {len(moments)} times and {len(loads)} {given[0]}: give a load at each time, one at least")
@@ -265,7 +266,7 @@ def _path(keys: dict[str, Any]) -> tuple[str, list[tuple[float, float | str]]]:
     for before, time in zip(moments, moments[1:]):
         if time < before:
             raise ValueError(f"time {time:g} follows {before:g}: times must not fall; the same time twice is a step at once")
-    return key, [(time, load if isinstance(load, str) else float(load)) for time, load in zip(moments, loads)]
+    return key, list(zip(moments, loads))
 
 
 def _listed(name: str, values: Any) -> list[Any]:

@@ -297,6 +297,16 @@ impl Quantities {
         Self(parts.into_iter().flat_map(|part| part.0).collect())
     }
 
+    /// The quantities with their bare numbers in SI units.
+    pub fn in_si(mut self) -> Self {
+        for given in self.0.iter_mut().filter(|given| given.is_bare) {
+            let unit = Key::named(&given.key).and_then(|key| key.kind.dimension()).map_or("", |dimension| dimension.si);
+            given.texts.iter_mut().for_each(|text| text.push_str(unit));
+            (given.has_unit, given.is_bare) = (true, false);
+        }
+        self
+    }
+
     /// Whether quantities have units; then all numbers are in SI units.
     pub fn is_si(&self) -> bool {
         self.0.iter().any(|given| given.has_unit)

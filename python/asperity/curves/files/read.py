@@ -13,7 +13,7 @@ from ... import _asperity
 from ...common.progress import counted
 from ...common.types import Quantity
 from ...common.warnings import InputWarning
-from ...common.words import checked
+from ...common.words import named
 from ..branches import ordered
 from ..tips import Array
 from . import afm, texts
@@ -38,7 +38,7 @@ class ForceCurve(NamedTuple):
 ForceCurve.__module__ = "asperity"
 
 
-@checked
+@named
 def read_curve(
     path: str | os.PathLike[str],
     *,
