@@ -35,12 +35,12 @@ class Clusters(NamedTuple):
 
 
 def clusters(contact: Any) -> Clusters:
-    """Finds the clusters of a map whose opposite sides meet.
+    """Finds the clusters of a map with opposite sides that meet.
 
     Parameters
     ----------
     contact : array_like of bool, shape (Nx, Ny)
-        Contact map, as that of a `Solution`.
+        Contact map, as a `Solution` has it.
 
     Returns
     -------

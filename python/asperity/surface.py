@@ -133,7 +133,7 @@ def self_affine(
         Wave numbers, in units of 2π/Lx, of the longest waves, the end of the plateau (k_l by default), and the shortest
         waves; the grid must have more than 2 k_s nodes along x.
     random_phase : bool
-        Whether only the phases of the waves are random, and their amplitudes those of the spectrum.
+        Whether only the phases of the waves are random, with the amplitudes of the spectrum.
     seed : int
         Seed of the random numbers, from 0: each makes another surface.
     tilt : float or (float, float), optional
@@ -166,7 +166,7 @@ def sphere(
     Parameters
     ----------
     shape, lengths
-        Numbers of nodes and side lengths, as of `self_affine`.
+        Numbers of nodes and side lengths, as `self_affine` takes them.
     radius : float
         Radius R, a length. Beyond it points are missing: `asperity.solve` takes them by ``absent_missing``.
     tilt : float or (float, float), optional
@@ -244,7 +244,7 @@ def _made(
 
 
 def _nodes(shape: Shape) -> tuple[Any, bool]:
-    """Numbers of nodes along both sides, and whether they are those of a line."""
+    """Numbers of nodes along both sides, and whether they are of a line."""
     nodes = (shape, shape) if isinstance(shape, int) else tuple(shape)
     return (nodes[0], 1) if len(nodes) == 1 else nodes, len(nodes) == 1
 
@@ -259,19 +259,19 @@ def fourier(
 ) -> Topography:
     """Makes a periodic surface of its Fourier coefficients, Σ h(q) exp(2πi(qX x/Lx + qY y/Ly)).
 
-    The coefficients are as FFTW's inverse transform takes them: those of ``numpy.fft.rfft2(heights)`` over the number
-    of heights. A wave stands for its opposite too, with the complex conjugate; where both are given, they count once.
-    The file is that of the contact-mechanics challenge (Müser et al. 2017), a text file of lines ``qX, qY, Re, Im``.
+    The coefficients are as FFTW's inverse transform takes them: ``numpy.fft.rfft2(heights)`` over the number of
+    heights. A wave stands for its opposite too, with the complex conjugate; where both are given, they count once. The
+    file is as in the contact-mechanics challenge (Müser et al. 2017), a text file of lines ``qX, qY, Re, Im``.
 
     Parameters
     ----------
     coefficients : array_like of shape (n, 4), or path of a file
         The whole numbers qX and qY of periods along the sides, of either sign, and the real and the imaginary part.
     shape, lengths
-        Numbers of nodes and side lengths, as of `self_affine`; the grid must have more than twice as many nodes along a
-        side as a wave has periods.
+        Numbers of nodes and side lengths, as `self_affine` takes them; the grid must have more than twice as many nodes
+        along a side as a wave has periods.
     fourier_unit : float, optional
-        Length of which the coefficients are multiples; needed if the side lengths have a unit.
+        Length that the coefficients are multiples of; needed if the side lengths have a unit.
 
     Returns
     -------
@@ -308,9 +308,9 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
     heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
         Heights of a periodic surface, shape (Nx, Ny).
     lengths : float or (float, float), optional
-        Side lengths, of which slopes, curvatures and Nayak's parameter are NaN if the heights do not bring them either.
+        Side lengths; slopes, curvatures and Nayak's parameter are NaN if the heights do not bring them either.
     axes : {"xy", "yx"}, optional
-        Axes of an array, as of `asperity.solve`: "xy" by default, the first is x.
+        Axes of an array, as `asperity.solve` takes them: "xy" by default, the first is x.
 
     Returns
     -------
@@ -328,7 +328,7 @@ def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrde
     Parameters
     ----------
     heights, lengths, axes
-        Those of `statistics`; the side lengths are needed, unless the heights bring them.
+        As `statistics` takes them; the side lengths are needed, unless the heights bring them.
 
     Returns
     -------
@@ -358,7 +358,7 @@ def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: A
     Parameters
     ----------
     heights, lengths, axes
-        Those of `statistics`; the side lengths are needed, unless the heights bring them.
+        As `statistics` takes them; the side lengths are needed, unless the heights bring them.
 
     Returns
     -------

@@ -111,9 +111,9 @@ class Cycle(Rows[Step]):
     def limit(self) -> CycleLimit | None:
         """The limits of no range of the work and of the greatest tension, with `JKR`; solves what is left.
 
-        The same cycle is solved on the grid of half as many nodes along the sides, when the limits are first asked for. None
-        for laws with a range, for a cycle that an observer ended, with a start or a map of the hardness, and where there is
-        no such grid.
+        The same cycle is solved on the grid of half as many nodes along the sides, when the limits are first asked for.
+        None for laws with a range, for a cycle that an observer ended, with a start or a map of the hardness, and where
+        there is no such grid.
         """
         self.run()
         if self._limit is None and self.rows and self.rows[-1]["status"] != "stopped":
@@ -132,9 +132,9 @@ class Cycle(Rows[Step]):
     def seconds_left(self) -> float | None:
         """An estimate of the time until the end, in seconds; None at the end.
 
-        At first it is that of the least number of states, and jumps take further ones. Before the first state it comes
-        from the time of one application of the elastic operator, and is right as to the order of magnitude. After a
-        twentieth of the way it is that of the rest at the speed so far.
+        At first the estimate is for the least number of states, and jumps take further ones. Before the first state it
+        comes from the time of one application of the elastic operator, and is right to the order of magnitude. After a
+        twentieth of the way it is the rest of the way at the speed so far.
         """
         return self._seconds_left
 
@@ -158,9 +158,8 @@ class Cycle(Rows[Step]):
         ax : matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, pressure_unit, force_unit : str, optional
-            Units for the axes, into which numbers are converted where the result has units, as that of a cycle with
-            units; others stay as they are. ``"m"``, ``"Pa"`` and ``"N"`` get prefixes. Forces are in N where lengths
-            are in m and pressures in Pa.
+            Units for the axes, into which numbers are converted where the cycle has units; others stay as they are.
+            ``"m"``, ``"Pa"`` and ``"N"`` get prefixes. Forces are in N where lengths are in m and pressures in Pa.
 
         Returns
         -------

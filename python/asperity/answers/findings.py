@@ -53,8 +53,8 @@ class PressureDistribution(NamedTuple):
     density : ndarray
         Share of the nodes in each bin over its width, per unit of pressure. Its integral is the contact fraction.
     edges : ndarray
-        Edges of the bins, from zero to the largest contact pressure: one more than there are bins. Where a few pressures,
-        as those of spikes, are far above all others, the last bin is wider than the others and has these.
+        Edges of the bins, from zero to the largest contact pressure: one more than there are bins. Where a few
+        pressures, as on spikes, are far above all others, the last bin is wider than the others and has these.
     """
 
     density: NDArray[np.float64]
@@ -169,7 +169,7 @@ class Plan(NamedTuple):
     bytes : float
         Memory that it takes.
     seconds : float
-        Time that it takes, by that of an operator application on the grid of the heights.
+        Time that it takes, estimated by an operator application on the grid of the heights.
     """
 
     nodes_per_wave: float

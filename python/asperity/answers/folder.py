@@ -23,7 +23,7 @@ from .solution import FIELDS, OTHERS, Solution
 def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: OwnLaw | None = None) -> Solution:
     """Reads a solution of the folder in which `Solution.save` or ``asperity solve --out`` has left it.
 
-    Its numbers are those of the report, in which infinite ones are None. Of a mirrored map the whole gap is that of the
+    The report has its numbers, in which infinite ones are None. Of a mirrored map the whole gap is the gap of the
     original with its mirror images.
 
     Parameters
@@ -41,13 +41,13 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     Returns
     -------
     Solution
-        As it was, but for symbols, and for the object of an adhesion law, in the place of which there is its name unless
-        it is given.
+        As it was, but for symbols, and for the object of an adhesion law: its name stands there unless the law is
+        given.
 
     Raises
     ------
     ValueError, FileNotFoundError
-        If the folder is not that of a solve, or its fields and heights do not fit each other.
+        If the folder is not from a solve, or its fields and heights do not fit each other.
 
     Examples
     --------
@@ -173,7 +173,7 @@ def _field(folder: str | os.PathLike[str], name: str, shape: tuple[int, ...]) ->
 
 
 def _check_fields(folder: str, fields: dict[str, Any], told: Any) -> None:
-    """Refuses fields that are not those of the report, by what is missing in them and by their means."""
+    """Refuses fields that do not belong to the report, by what is missing in them and by their means."""
     missing = np.count_nonzero(np.isnan(fields["gap"]))
     if missing != told["absent_nodes"]:
         raise ValueError(f"gap in {folder} has {missing} missing values, the report says {told['absent_nodes']}")
@@ -186,7 +186,7 @@ def _check_fields(folder: str, fields: dict[str, Any], told: Any) -> None:
 
 
 def _check_heights(fields: dict[str, Any], told: Any) -> None:
-    """Refuses heights that are not those of the fields: with the pressures they give another elastic energy."""
+    """Refuses heights that do not belong to the fields: with the pressures they give another elastic energy."""
     depth, present = fields["plastic_depth"], np.isfinite(fields["gap"])
     # the displacements of absent nodes of a periodic map are not known
     if told["hardness"] is not None and depth is None or told["approach"] is None and not present.all():

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Interface(Sweep):
-    """A sweep whose columns are the law of an interface."""
+    """A sweep with the law of an interface as its columns."""
 
     def write(self, name: str | PathLike[str], code: Code) -> list[Path]:
         """Writes the files that a code of finite elements reads; solves what is left.

@@ -27,8 +27,8 @@ class Flow(NamedTuple):
     ----------
     lower, upper : float
         Bounds of the transmissivity Qη/Δp, a length cubed. Q is the flow, a volume per time, Δp is the difference of
-        pressure between the two sides, and η is the viscosity. A slot of width g in a square cell has g³/12. Both bounds
-        are zero where the gap is closed.
+        pressure between the two sides, and η is the viscosity. A slot of width g in a square cell has g³/12. Both
+        bounds are zero where the gap is closed.
     grid_error : float or None
         Estimated relative error of the grid: the largest difference from the transmissivity of every second node, the
         even ones alone or the odd ones. Where the grid resolves the gap this is about three times the error. It is not
@@ -105,11 +105,11 @@ def leakage(
         Solution, or gaps, shape (Nx, Ny). The gap is open at nodes where it is positive, and a node is absent where it
         is not finite. Gaps with negative values are refused, as heights are.
     lengths : float or (float, float), optional
-        Side lengths; Lx alone means square cells. Those of the gaps by default, or 1 by 1 if they bring none. A solution
-        has its own.
+        Side lengths; Lx alone means square cells. By default the side lengths of the gaps, or 1 by 1 if they bring
+        none. A solution has its own.
     boundary : {"periodic", "free"}, optional
         What is beyond the map. With a free boundary the fluid enters along one side and leaves along the opposite one,
-        and the two other sides are tight. By default the boundary is that of the solution, and periodic for an array.
+        and the two other sides are tight. By default the boundary of the solution, and periodic for an array.
         The original of a mirrored map has a free boundary, by which it leaks as the whole map does.
     absent_gap : float or str, optional
         Gap of absent nodes. They are closed by default.

@@ -22,7 +22,7 @@ P = TypeVar("P", bound="Posed")
 
 
 class Turns:
-    """Calls of a problem one at a time: those of other threads wait, and one from within another is refused."""
+    """Calls of a problem one at a time: calls of other threads wait, and one from within another is refused."""
 
     def __init__(self) -> None:
         self._lock, self._is_within = threading.RLock(), False

@@ -27,7 +27,7 @@ _TABLES: WeakValueDictionary[str, Rows[Any]] = WeakValueDictionary()
 
 
 class Rows(Iterator[T]):
-    """An iterator over states, of which the numbers are kept, and not the fields."""
+    """An iterator over states that keeps their numbers, and not their fields."""
 
     def __init__(
         self, contact: Posed, way: str, keys: list[dict[str, Any]], start: Any, observe: Any, file: File

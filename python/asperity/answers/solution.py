@@ -60,8 +60,8 @@ class Solution:
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
     whole_gap : ndarray
-        Gap on all nodes that were solved. On a mirrored map these include the mirror images, while the other fields
-        are those of the original, unless the solve was asked for the whole. ``report["part"]`` says which it is.
+        Gap on all nodes that were solved. On a mirrored map these include the mirror images, while the other fields are
+        on the original, unless the solve was asked for the whole. ``report["part"]`` says which it is.
     topography : Topography
         Map of the heights that were solved. Where an accuracy was asked for, it is on the grid of the solution. A
         solution that was loaded without them has none.
@@ -169,14 +169,14 @@ class Solution:
 
     @property
     def flow_boundary(self) -> Boundary:
-        """Boundary of a flow through the gap: at the sides of the original of a mirrored map it is that of a free one."""
+        """Boundary of a flow through the gap: free at the sides of the original of a mirrored map."""
         return "free" if self.boundary == "free" or self._told["part"] == "original" else "periodic"
 
     def percolation(self) -> Percolation:
         """Percolation of the gap: whether open nodes connect the sides, and where the constriction is.
 
         A periodic gap percolates along x if a cluster of open nodes winds around the cell along x, alone or along y as
-        well. Neighbours are nodes whose cells share a side. Absent nodes are closed.
+        well. Neighbours are nodes with cells that share a side. Absent nodes are closed.
 
         Examples
         --------
@@ -194,8 +194,8 @@ class Solution:
     def conductance(self, resistivities: tuple[Quantity, Quantity]) -> Conductance:
         """Conductance of the contact between two half-spaces, by its stiffness at fixed spots (Barber's identity).
 
-        1/R = 2 (dF/dδ)/(E* (ρ₁ + ρ₂)), whatever the shape and number of the spots; a circle of radius a has 4a/(ρ₁ + ρ₂).
-        The spots conduct perfectly, the gap not at all. Adhesion makes other spots, but conducts nothing itself.
+        1/R = 2 (dF/dδ)/(E* (ρ₁ + ρ₂)), whatever the shape and number of the spots; a circle of radius a has 4a/(ρ₁ +
+        ρ₂). The spots conduct perfectly, the gap not at all. Adhesion makes other spots, but conducts nothing itself.
 
         Parameters
         ----------
@@ -244,8 +244,8 @@ class Solution:
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Writes the fields, the heights and the report into a folder; `asperity.load` reads it.
 
-        Fields and report are those of ``asperity solve --out``, for ``asperity contact`` and the other commands that read
-        results. The program writes no heights, but the scene, ``scene.toml``, and pictures.
+        Fields and report are as ``asperity solve --out`` writes them, for ``asperity contact`` and the other commands
+        that read results. The program writes no heights, but the scene, ``scene.toml``, and pictures.
 
         Parameters
         ----------
@@ -411,8 +411,8 @@ class Solution:
         """Contact stiffness dp̄/dδ, a pressure per length; None where it was not asked for.
 
         It is how much the mean pressure grows as the bodies approach each other, or as the mean gap falls, and equals
-        that of a flat punch with the outline of the contact. Infinite where all nodes are in contact; with adhesion it
-        may be negative.
+        the stiffness of a flat punch with the outline of the contact. Infinite where all nodes are in contact; with
+        adhesion it may be negative.
         """
         return self._told["contact_stiffness"]
 
@@ -463,8 +463,8 @@ class Solution:
     ) -> Any:
         """Draws contact and pressure side by side, as the tool draws them; needs matplotlib.
 
-        With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where a
-        few nodes press far harder, its bar has an arrow, and says how much of the load stands on them. A line has its
+        With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where
+        a few nodes press far harder, its bar has an arrow, and says how much of the load stands on them. A line has its
         profile and its pressure, one above the other.
 
         Parameters
@@ -472,11 +472,11 @@ class Solution:
         ax : sequence of two matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, pressure_unit : str, optional
-            Units for the axes and the scales, into which numbers are converted where the result has units, as that of a
-            solve with units; others stay as they are. ``"m"`` and ``"Pa"`` get prefixes.
+            Units for the axes and the scales, into which numbers are converted where the solve has units; others stay
+            as they are. ``"m"`` and ``"Pa"`` get prefixes.
         colour_limits : (float, float), optional
-            Pressures at the ends of the scales, in the units of the result, for figures that are to be compared: that of
-            the largest tension, zero or negative, and that of the largest compression.
+            Pressures at the ends of the scales, in the units of the result, for figures that are to be compared: the
+            largest tension, zero or negative, and the largest compression.
         colour_clusters : bool
             Each cluster of contact gets a colour of its own, nine in turn, the largest clusters first.
 

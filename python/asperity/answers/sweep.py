@@ -65,10 +65,10 @@ class Sweep(Rows[Solution]):
         theory : bool
             Draws theories of the surface as well: `asperity.exact.Persson`, and `asperity.exact.GreenwoodWilliamson`
             for the area. The area has then also the points of the ``corrected_contact_fraction``, which compares with
-            theories better than that of the nodes. Without adhesion, on a half-space, with a periodic boundary.
+            theories better than the fraction of the nodes. Without adhesion, on a half-space, with a periodic boundary.
         length_unit, pressure_unit : str, optional
-            Units for the axes, into which numbers are converted where the result has units, as that of a sweep with
-            units; others stay as they are. ``"m"`` and ``"Pa"`` get prefixes.
+            Units for the axes, into which numbers are converted where the sweep has units; others stay as they are.
+            ``"m"`` and ``"Pa"`` get prefixes.
 
         Returns
         -------

@@ -17,7 +17,7 @@ Command of the Python package:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors have one line."""
+    """A parser with errors of one line."""
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message}: see {self.prog} --help")

@@ -77,13 +77,13 @@ def pull_off(
 
     The tension grows, each solve from the gap of the one before, until the surfaces come apart; then the pull-off is
     between the two, and the bracket is narrowed. The load is given, as if by a soft spring, so that many contacts may
-    break at once; `cycle` draws the surfaces apart and shows each break. Parameters that are not here are those of
-    `solve`.
+    break at once; `cycle` draws the surfaces apart and shows each break. `solve` has the other parameters.
 
     Parameters
     ----------
     heights, lengths, axes
-        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as `solve` takes
+        them.
     law : Law or an object of your own
         Adhesion law.
     preload : float, optional
@@ -156,22 +156,23 @@ def viscoelastic(
 ) -> Viscoelastic:
     """Follows the contact of a linear viscoelastic body over time, under loads or approaches at given times.
 
-    The relaxation modulus is E(t) = E₀ (1 − Σ gₖ (1 − exp(−t/τₖ))), with the same Poisson's ratio at all times. The first
-    load comes at once, on a body at rest. Between two times the displacement is taken as linear in time, and the error of
-    that is of the second order in the step. A long hold may be one step, but for its energies. With adhesion each solve
-    begins from the gap of the one before. Parameters that are not here are those of `solve`.
+    The relaxation modulus is E(t) = E₀ (1 − Σ gₖ (1 − exp(−t/τₖ))), with the same Poisson's ratio at all times. The
+    first load comes at once, on a body at rest. Between two times the displacement is taken as linear in time, and the
+    error of that is of the second order in the step. A long hold may be one step, but for its energies. With adhesion
+    each solve begins from the gap of the one before. `solve` has the other parameters.
 
     Parameters
     ----------
     heights, lengths, axes
-        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as `solve` takes
+        them.
     modulus : float
-        Instantaneous contact modulus E₀, a pressure: that of a step at once. The relaxed one is E₀ (1 − Σ gₖ).
+        Instantaneous contact modulus E₀, a pressure, in a step at once. The relaxed one is E₀ (1 − Σ gₖ).
     body : Layer, optional
         Body that deforms, a half-space by default; work and energies are without the mean compression of a layer.
     law : Law, an object of your own, or str, optional
-        Adhesion law, like that of `solve`, with a range. A law whose traction jumps, such as `MaugisDugdale`, holds
-        edges on the nodes.
+        Adhesion law, as `solve` takes it, with a range. A law with a traction that jumps, such as `MaugisDugdale`,
+        holds edges on the nodes.
     prony : sequence of (float, float)
         Shares gₖ of the instantaneous modulus that relax, and their relaxation times τₖ. Shares add up to 1 at most.
     times : sequence of float

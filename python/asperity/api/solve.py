@@ -107,14 +107,15 @@ def solve(
         them as they are.
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells, and of an
-        array (N,) a strip as wide as it is long. A force on a line is that on its width. Needed unless the heights bring
-        them.
+        array (N,) a strip as wide as it is long. A force on a line is that on its width. Needed unless the heights
+        bring them.
     axes : {"xy", "yx"}, optional
         Axes of an array of heights, of ``against`` and of ``hardness``: "xy" by default, the first is x, or "yx" for an
-        image, [row, column]. A DataArray whose dimensions are named x and y does not need it. Results, ``start`` and
+        image, [row, column]. A DataArray with dimensions named x and y does not need it. Results, ``start`` and
         the works of `Varying` have x along the first axis in any case.
     modulus : float
-        Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that deforms.
+        Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that
+        deforms.
     boundary : {"periodic", "free"}
         What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. A
         free boundary needs a map that is not a line, and takes four times the memory.
@@ -126,14 +127,15 @@ def solve(
     base : {"bonded", "sliding"}, optional
         Hold of the base on the layer: bonded, or sliding without friction [default: bonded].
     coating : float or str, optional
-        Thickness of an elastic coating on the half-space; modulus is then that of the substrate; needs coating_modulus,
-        coating_poisson and poisson.
+        Thickness of an elastic coating on the half-space; modulus is then the modulus of the substrate; needs
+        coating_modulus, coating_poisson and poisson.
     coating_modulus : float or str, optional
         Contact modulus E/(1 - nu^2) of the coating, a pressure.
     coating_poisson : float, optional
         Poisson's ratio of the coating.
     plate : float or str, optional
-        Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; modulus is then that of the half-space.
+        Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; modulus is then the modulus of the
+        half-space.
     poisson : float, optional
         Poisson's ratio of the layer, or of the substrate under a coating.
     against_modulus : float or str, optional
@@ -142,7 +144,7 @@ def solve(
         Lengths by which the surface on the other side is moved along x and y, with a periodic boundary. They need not
         be whole nodes.
     whole : bool
-        Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are those of its
+        Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are on its
         original.
     law : Law, an object of your own, or str, optional
         Adhesion law, or its name with its parameters, such as ``law="exponential", work_of_adhesion=..., range=...``;
@@ -180,7 +182,7 @@ def solve(
     threads : int, optional
         Threads; the results do not depend on it [default: one per core].
     branch : {"loading", "unloading", "both"}, optional
-        Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, or that of surfaces
+        Equilibrium to find where adhesion has several: with surfaces pressed together from afar, or with surfaces
         pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
         this default one, and ``report["other_branch"]`` has the other one, how far away it is, and whether it is the
         same.
@@ -198,19 +200,19 @@ def solve(
     normal_force : float or str, optional
         Normal force that is held, compression positive: the mean pressure times the area of the map.
     approach : float or str, optional
-        Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved towards each
-        other from the position of first touch without deformation; negative before it.
+        Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved towards
+        each other from the position of first touch without deformation; negative before it.
     spring_stiffness : float or str, optional
         Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs spring_position.
     spring_position : float or str, optional
-        Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z - D);
-        with a periodic one a mean gap, F = K (G - Z).
+        Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z -
+        D); with a periodic one a mean gap, F = K (G - Z).
     reduced_pressure : float, optional
         Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms).
     contact_fraction : float
         Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
-        pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
-        ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
+        pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it
+        was ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
     nested : bool, optional
         Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
         the grid then. None leaves it to the library, which does so where it is faster.
@@ -223,7 +225,7 @@ def solve(
         and ``normal_stiffness`` of the solution.
     resistivities : (float, float), optional
         Electrical resistivities of both half-spaces: with ``stiffness`` the conductance of the contact per area, in
-        ``report["conductance"]`` with its relative error, that of the grid included as far as it is known.
+        ``report["conductance"]`` with its relative error, which includes the error of the grid as far as it is known.
     conductivities : tuple[float or str, float or str], optional
         Thermal conductivities of both half-spaces: the same for heat.
     accuracy : float, optional
@@ -252,8 +254,8 @@ def solve(
     Returns
     -------
     Solution
-        Also where it has not converged: then with a `ConvergenceWarning`. With an `AccuracyWarning` where it has, and an
-        accuracy was not reached.
+        Also where it has not converged: then with a `ConvergenceWarning`. With an `AccuracyWarning` where it has, and
+        an accuracy was not reached.
 
     Raises
     ------
@@ -312,7 +314,7 @@ def stability(
     solution : Solution
         Solution of `solve`, or of a sweep or a cycle.
     mean_pressure, mean_gap, normal_force, approach, spring : optional
-        Load that takes the place of the solution's own, as those of `solve`: an equilibrium that is stable at a given
+        Load that takes the place of the solution's own, as `solve` takes it: an equilibrium that is stable at a given
         mean gap may not be under the pressure that it has there.
 
     Returns

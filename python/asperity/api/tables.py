@@ -89,13 +89,14 @@ def sweep(
 ) -> Sweep:
     """Solves under many loads, one after the other, each from where the ones before lead.
 
-    Parameters are those of `solve`, but for the loads. Along approaches or springs that grow from a negative one, and
+    `solve` has the parameters besides the loads. Along approaches or springs that grow from a negative one, and
     with a free boundary, it begins with the bodies apart.
 
     Parameters
     ----------
     heights, lengths, axes
-        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as `solve` takes
+        them.
     mean_pressures : sequence of float
         Mean external pressures, in their order.
     mean_gaps : sequence of float
@@ -119,7 +120,7 @@ def sweep(
         Electrical resistivities, or thermal conductivities, of both half-spaces: with ``stiffness`` the columns
         ``electrical_conductance`` or ``thermal_conductance``, per area, and ``conductance_error``.
     leakage : float, optional
-        Relative distance of two bounds of the transmissivity of the gap, like those of `leakage`: columns
+        Relative distance of two bounds of the transmissivity of the gap, as `leakage` finds them: columns
         ``transmissivity_x_lower``, ``transmissivity_x_upper`` and the same along y.
     out : str or path, optional
         File for the rows, ``.csv`` or ``.jsonl``, as the program writes it from the same inputs. A row is appended as
@@ -207,12 +208,13 @@ def cycle(
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
     A withdrawal ends once the surfaces do not touch, and hardly attract each other: below a thousandth of the greatest
-    tension. Parameters that are not here are those of `solve`.
+    tension. `solve` has the other parameters.
 
     Parameters
     ----------
     heights, lengths, axes
-        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as `solve` takes
+        them.
     mean_gaps : sequence of float
         Mean gaps at which the cycle starts, turns and ends: two at least.
     mean_pressures : sequence of float
@@ -314,8 +316,8 @@ def interface(
 
     Columns are the mean pressure, the mean gap, the closure, which is the approach of the mean planes since the
     undeformed surfaces first touched, the contact area, the contact stiffness, which is the slope of the pressure over
-    the closure, with its relative error, and conductance and transmissivity where they are asked for. Parameters are
-    those of `sweep`.
+    the closure, with its relative error, and conductance and transmissivity where they are asked for. `sweep` has the
+    parameters.
 
     Returns
     -------

@@ -54,10 +54,10 @@ class Layer(Measured):
 
 @dataclass(frozen=True)
 class Coating(Measured):
-    """An elastic coating that is bonded to a half-space, whose contact modulus E* is ``modulus``.
+    """An elastic coating that is bonded to a half-space; ``modulus`` of the solve is the half-space's E*.
 
-    Waves that are short compared with the thickness have the stiffness of the coating, and long ones that of the
-    substrate. The boundary is periodic.
+    Waves that are short compared with the thickness have the stiffness of the coating, and long ones the stiffness of
+    the substrate. The boundary is periodic.
 
     Parameters
     ----------
@@ -97,9 +97,9 @@ class Symbol:
     """An elastic body by the stiffness of its waves, a function of your own.
 
     A wave of the displacement u cos(qx·x + qy·y) of the surface needs the pressure k u cos(qx·x + qy·y), and k is what
-    the function returns: that of the half-space is ½E*q. The function also sets the scale of the stiffness, so that
-    ``modulus`` only converts a ``reduced_pressure``. Measures of the grid use the modulus 2k/q of the shortest waves.
-    The boundary is periodic.
+    the function returns: ½E*q of a half-space. The function also sets the scale of the stiffness, so that ``modulus``
+    only converts a ``reduced_pressure``. Measures of the grid use the modulus 2k/q of the shortest waves. The boundary
+    is periodic.
 
     Parameters
     ----------

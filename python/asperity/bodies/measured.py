@@ -1,4 +1,4 @@
-"""Descriptions whose numbers may be strings with a unit, such as walls and bodies."""
+"""Descriptions of walls and bodies by numbers, which may be strings with a unit."""
 
 from __future__ import annotations
 

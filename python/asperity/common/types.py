@@ -45,7 +45,7 @@ class HeightMap(Protocol):
 
 
 class OwnLaw(Protocol):
-    """An adhesion law of one's own: functions of an array of gaps g ≥ 0, as those of every `Law`."""
+    """An adhesion law of one's own: functions of an array of gaps g ≥ 0, as every `Law` has them."""
 
     def energy(self, gap: NDArray[Any], /) -> ArrayLike:
         """Energy per area γ(g), zero far away and negative near."""
@@ -150,7 +150,7 @@ class Steadiness(TypedDict):
 
 
 class Conducted(TypedDict):
-    """The conductance of a contact per area and of the whole; no relative error where that of the grid is unknown."""
+    """The conductance of a contact per area and of the whole; no relative error where the error of the grid is unknown."""
 
     value: float
     whole: float

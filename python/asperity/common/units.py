@@ -46,5 +46,5 @@ def number(name: str, value: Any) -> float:
 
 
 def plain(keys: dict[str, Any]) -> dict[str, Any]:
-    """Keys with their values as the compiled core reads them: numbers, texts and lists, without those of numpy."""
+    """Keys with their values as the compiled core reads them: numbers, texts and lists of Python, none of numpy."""
     return {key: np.asarray(value).tolist() for key, value in keys.items() if value is not None}

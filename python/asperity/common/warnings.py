@@ -20,7 +20,7 @@ class ConvergenceWarning(UserWarning):
 class AccuracyWarning(UserWarning):
     """An accuracy that was asked for and not reached: ``report["grid_error"]`` has the estimated error.
 
-    It is also given for a cycle whose balance of energy misses more than 5 % of the greatest work.
+    It is also given for a cycle with a balance of energy that misses more than 5 % of the greatest work.
     """
 
 

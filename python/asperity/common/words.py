@@ -1,4 +1,4 @@
-"""Keywords that are not those of a function, and the ones that they may mean."""
+"""Keywords that a function does not have, and the ones that they may mean."""
 
 from __future__ import annotations
 

@@ -2,9 +2,9 @@
 
 A model is ruled out by another that fits better. By how much the best of the others fits better than a true model, by
 noise alone, follows from the differences of their predictions: over a difference d, which is orthogonal to what the
-parameters of the model change, the squares fall by 2⟨d, ε⟩ − |d|² for noise ε, as much at the best place along a path of
-such differences. This distribution is sampled. Where no other model fits better, the residuals of neighbouring points
-decide.
+parameters of the model change, the squares fall by 2⟨d, ε⟩ − |d|² for noise ε, as much at the best place along a path
+of such differences. This distribution is sampled. Where no other model fits better, the residuals of neighbouring
+points decide.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def falls(paths: list[Array], freedom: int) -> Array:
 
 
 def probability(fall: float, paths: list[Array], freedom: int, otherwise: Callable[[], float]) -> float:
-    """The probability of a fall as large as this one; without a fall, `otherwise` is that of what else is seen."""
+    """The probability of a fall as large as this one; without a fall, `otherwise`, the probability of what else is seen."""
     special = scipy("special")
     if fall > FAR:
         return float(special.fdtrc(2, freedom, 0.5 * fall))
@@ -83,7 +83,7 @@ def probability(fall: float, paths: list[Array], freedom: int, otherwise: Callab
 
 
 def orthonormal(columns: Array) -> Array:
-    """An orthonormal basis of columns, of which some may be zero."""
+    """An orthonormal basis of columns; some may be zero."""
     norms = np.linalg.norm(columns, axis=0)
     kept = norms > 1e-12 * norms.max(initial=0.0)
     found = np.linalg.qr(columns[:, kept] / norms[kept])[0]

@@ -98,7 +98,7 @@ class Curve:
             self.refuse_empty()
 
     def _refuse_falling(self, far: NDArray[np.int64]) -> NoReturn:
-        """Refuses a curve whose force falls with z where it changes most, at the least z."""
+        """Refuses a curve with a force that falls with z where it changes most, at the least z."""
         self._refuse_noise()
         slope = float(np.polyfit(self.z[far], self.force[far], 1)[0])
         raise ValueError(
@@ -107,7 +107,7 @@ class Curve:
         )
 
     def _refuse_steep(self) -> NoReturn:
-        """Refuses a curve whose force grows by more than the spring allows."""
+        """Refuses a curve with a force that grows by more than the spring allows."""
         self._refuse_noise()
         raise ValueError(
             f"force grows with z by {self._slope():.4g} where it is greatest, and spring_stiffness is only "
@@ -123,7 +123,7 @@ class Curve:
         )
 
     def refuse_vague(self, lower: float, upper: float) -> NoReturn:
-        """Refuses a curve whose interval of the modulus spans a decade."""
+        """Refuses a curve with an interval of the modulus of a decade."""
         told = f"the force tells a contact modulus only between {lower:.3g} and {upper:.3g}"
         if self.compliance == 0.0:
             raise ValueError(f"{told}: record more points in contact, or press harder")

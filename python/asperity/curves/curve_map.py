@@ -215,16 +215,16 @@ def fit_curves(
     Parameters
     ----------
     curves : str or path, sequence of (z, force), or array_like
-        File of a map, such as ``.jpk-qi-data`` and ``.jpk-force-map``, read by afmformats; pairs of positions and forces,
-        of any number of points each; or an array of shape (..., 2, N) of these.
+        File of a map, such as ``.jpk-qi-data`` and ``.jpk-force-map``, read by afmformats; pairs of positions and
+        forces, of any number of points each; or an array of shape (..., 2, N) of these.
     radius, tip, spring_stiffness, poisson, direction, model, jumps, length_unit, force_unit
-        As those of `fit_curve`. A file is in SI units, and its own stiffness of the spring is taken by default.
+        As `fit_curve` takes them. A file is in SI units, and its own stiffness of the spring is taken by default.
     sensitivity : float or str, optional
-        Deflection over the voltage of the detector, for a file that does not tell it, as that of `read_curve`.
+        Deflection over the voltage of the detector, for a file that does not tell it, as `read_curve` takes it.
     shape : tuple of int, optional
         Shape of the map, of curves without one: all in a row by default.
     lengths : float, str or pair of them, optional
-        Side lengths of the map; those of a file by default.
+        Side lengths of the map; by default the side lengths of a file.
     threads : int, optional
         Number of threads; by default as many as there are cores.
 

@@ -25,8 +25,9 @@ from .tips import Array
 class CurveFit:
     """What a force curve tells of the contact, with 95 % intervals.
 
-    Intervals are those of the likelihood over all Tabor parameters: those of modulus and work of adhesion are wider where
-    the curve does not tell DMT from JKR. They hold for noise of the force that is independent from point to point.
+    Intervals come from the likelihood over all Tabor parameters: the intervals of modulus and work of adhesion are
+    wider where the curve does not tell DMT from JKR. They hold for noise of the force that is independent from point to
+    point.
 
     Attributes
     ----------
@@ -47,15 +48,16 @@ class CurveFit:
     offset, slope : Estimate
         Baseline: force far from the contact at z = 0, and its change with z.
     drift : Estimate or None
-        Change of the baseline from the first point to the last; None on one direction alone, where it is that of a slope.
+        Change of the baseline from the first point to the last; None on one direction alone, where it is the change of
+        a slope.
     covariance : ndarray
-        Covariance of the numbers in `names`, over all Tabor parameters by their likelihood. Where Hertz is not ruled out
-        it tells nothing of the work of adhesion.
+        Covariance of the numbers in `names`, over all Tabor parameters by their likelihood. Where Hertz is not ruled
+        out it tells nothing of the work of adhesion.
     names : tuple of str
         Rows of the covariance: modulus, work_of_adhesion, contact_point, offset, slope, and drift.
     models : dict
-        `ModelFit` of Hertz, DMT, Maugis and JKR by these names, with a table of ``"no adhesion"`` and ``"adhesion"``; the
-        one that was given alone.
+        `ModelFit` of Hertz, DMT, Maugis and JKR by these names, with a table of ``"no adhesion"`` and ``"adhesion"``;
+        the one that was given alone.
     verdict : str
         Which of these the curve tells apart, in a sentence, with the table, its limits and its error.
     z, force, fitted, residuals : ndarray
@@ -125,7 +127,7 @@ class CurveFit:
         ax : sequence of two matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, force_unit : str, optional
-            Units for the axes, into which the numbers of a fit with units are converted; those of other fits stay as
+            Units for the axes, into which the numbers of a fit with units are converted; numbers of other fits stay as
             they are. ``"m"`` and ``"N"``, the default of a fit with units, get prefixes.
 
         Returns
@@ -162,18 +164,18 @@ def fit_curve(
 ) -> CurveFit:
     """Fits the force curve of a tip: contact modulus, work of adhesion, contact point and baseline.
 
-    By its ``radius`` the tip is a smooth paraboloid on a half-space with the adhesion of Maugis and Dugdale, whose limits
-    are DMT and JKR, at Tabor parameters from 0.01 to 50. Any other tip is a `TipTable`: a measured or rough one, a cone, or
-    one on a layer, with a law of a given range. What is beyond the table is refused, and its ``error`` is that of
-    interpolation. Approach and withdrawal are fitted together, with the jumps of the spring where an equilibrium ends.
-    Needs SciPy.
+    By its ``radius`` the tip is a smooth paraboloid on a half-space with the adhesion of Maugis and Dugdale, with the
+    limits DMT and JKR, at Tabor parameters from 0.01 to 50. Any other tip is a `TipTable`: a measured or rough one, a
+    cone, or one on a layer, with a law of a given range. What is beyond the table is refused, and its ``error`` comes
+    from interpolation. Approach and withdrawal are fitted together, with the jumps of the spring where an equilibrium
+    ends. Needs SciPy.
 
     Parameters
     ----------
     z : array_like, shape (N,)
-        Positions in the order in which they were recorded, greater as the bodies come closer. With a spring those of the
-        piezo, which moves by the approach and the deflection of the spring. Without one the approach itself, but for its
-        zero.
+        Positions in the order in which they were recorded, greater as the bodies come closer. With a spring positions
+        of the piezo, which moves by the approach and the deflection of the spring. Without one the approach itself, but
+        for its zero.
     force : array_like, shape (N,)
         Forces at these positions, compression positive.
     radius : float or str, optional
@@ -185,8 +187,8 @@ def fit_curve(
     poisson : float, optional
         Poisson's ratio of the sample, for its Young's modulus under a rigid tip.
     direction : {"approach", "withdrawal"}, optional
-        The only direction that was recorded. By default points up to the greatest z are the approach, and those behind it
-        are the withdrawal. With a direction the order may be either.
+        The only direction that was recorded. By default points up to the greatest z are the approach, and those behind
+        it are the withdrawal. With a direction the order may be either.
     model : {"hertz", "dmt", "maugis", "jkr"}, optional
         The only model to fit, quicker than all; of a table ``"no adhesion"`` or ``"adhesion"``.
     jumps : bool
@@ -210,7 +212,7 @@ def fit_curve(
     Warns
     -----
     InputWarning
-        If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow. If the
+        If neighbouring residuals are alike: the curve is not from such a tip, and intervals are too narrow. If the
         greatest indentation is greater than the radius, as where z is in nm and the radius in m. If the force falls
         further on approach than on withdrawal.
 

@@ -50,10 +50,10 @@ class ModelFit(NamedTuple):
     rms : float
         Root mean square of its residuals.
     aic : float
-        Information criterion of Akaike, less that of the best model.
+        Information criterion of Akaike, less the one of the best model.
     p_value : float
-        Probability of what is seen, or more, if the model was true: of another model that fits as much better, or, where
-        none does, of residuals of neighbouring points that are as alike. Below 0.05 the model is ruled out.
+        Probability of what is seen, or more, if the model was true: of another model that fits as much better, or,
+        where none does, of residuals of neighbouring points that are as alike. Below 0.05 the model is ruled out.
     """
 
     modulus: float
@@ -227,7 +227,7 @@ class Likelihood:
         return Estimate(float(self.fits.modulus[self.given]), *np.exp(np.clip([lower, upper], -700.0, 700.0)).tolist())
 
     def point(self) -> Estimate:
-        """The contact point, of which the spread is in its scale."""
+        """The contact point, with its spread in its scale."""
         half = self._span(POINT, self.fits.point / self.curve.length)
         return Estimate(float(self.fits.point[self.given]), *(self.curve.length * end for end in half))
 

@@ -33,27 +33,27 @@ class TipTable:
     """The equilibria of a tip of any shape and its adhesion, solved once, with which `fit_curve` fits many curves.
 
     The force over E* depends on the approach, the adhesion law over w, and w/E* alone. So solves of one law at some
-    moduli serve all moduli and works of adhesion whose ratio is at most that of the table. Between its works, monotone
+    moduli serve all moduli and works of adhesion up to the ratio of the table. Between its works, monotone
     cubics interpolate both branches. The withdrawal is that from the greatest approach. A table of 64 x 64 nodes takes
     seconds. Needs SciPy.
 
     Parameters
     ----------
     heights, lengths, axes
-        Heights of the tip, as those of `solve`: a measured map, or a form of `asperity.surface`, as a cone, with or
+        Heights of the tip, as `solve` takes them: a measured map, or a form of `asperity.surface`, as a cone, with or
         without roughness.
     approaches : (float, float)
         Approaches between which the tip is solved: one before contact, negative, where its attraction is small, and the
         greatest one of the curves.
     modulus, law, work_of_adhesion, range
-        Contact modulus E* and adhesion law, as those of `solve`: those of the greatest w/E* of the curves. The range of
-        the law is fixed, and best one that the grid resolves: by `JKR` a smooth tip of 64 x 64 nodes is fitted with a work
-        of adhesion 7 % too small. Without a law the force is in proportion to the modulus, and any will do.
+        Contact modulus E* and adhesion law, as `solve` takes them, with the greatest w/E* of the curves. The range of
+        the law is fixed, and best one that the grid resolves: by `JKR` a smooth tip of 64 x 64 nodes is fitted with a
+        work of adhesion 7 % too small. Without a law the force is in proportion to the modulus, and any will do.
     body : Layer or Coating, optional
-        Layer under the tip, or coating on the half-space, which is alone by default. Its boundary is periodic, so that the
-        map has to be much wider than the contact: approaches are those of points far away, to the first order in the
-        width of the contact over the map's. Moduli of coating and half-space stay in proportion, and a fit tells the one
-        of the half-space.
+        Layer under the tip, or coating on the half-space, which is alone by default. Its boundary is periodic, so that
+        the map has to be much wider than the contact: approaches are of points far away, to the first order in the
+        width of the contact over the map's. Moduli of coating and half-space stay in proportion, and a fit tells the
+        one of the half-space.
     works : int
         Number of the ratios w/E* at which the tip is solved, even.
     steps : int
@@ -64,8 +64,8 @@ class TipTable:
     ratio : float
         Greatest w/E*, a length.
     error : float
-        Estimated relative error of pull-off and greatest force, where w/E* is above a 27th of the greatest one: a quarter
-        of that of a table of every second work.
+        Estimated relative error of pull-off and greatest force, where w/E* is above a 27th of the greatest one: a
+        quarter of the error of a table of every second work.
 
     Examples
     --------

@@ -110,7 +110,7 @@ def flat(knots: Array) -> tuple[Array, Array, None]:
 
 @lru_cache(maxsize=1)
 def _smooth() -> Any:
-    """The equilibria of a paraboloid, for R = E* = w = 1: those of Maugis over the logarithm of the Tabor parameter."""
+    """The equilibria of a paraboloid, for R = E* = w = 1, by Maugis over the logarithm of the Tabor parameter."""
     shapes = np.log(_KNOTS)
     spline = scipy("interpolate").CubicSpline(shapes, [_maugis(tabor) for tabor in _KNOTS])
     found: dict[str, Any] = {name: flat(knots) for name, knots in _limits().items()}

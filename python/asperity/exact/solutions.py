@@ -55,7 +55,7 @@ class Contact(_States):
 
     Notes
     -----
-    Fields are at the distances r ≥ 0 from the axis: the shape of the contacts, then that of r.
+    Fields are at the distances r ≥ 0 from the axis: the shape of the contacts, then the shape of r.
     """
 
     _shown = ("contact_radius", "load", "approach")
@@ -100,7 +100,7 @@ class WaveContact(_States):
 
     Notes
     -----
-    Fields are at the distances x from a crest: the shape of the contacts, then that of x.
+    Fields are at the distances x from a crest: the shape of the contacts, then the shape of x.
     """
 
     _shown = ("half_width", "mean_pressure", "mean_gap")
@@ -171,7 +171,7 @@ class Jkr(_Sphere):
     Parameters
     ----------
     radius, modulus
-        Those of `Hertz`.
+        Radius and contact modulus, as `Hertz` has them.
     work_of_adhesion : float
         Work of adhesion w, an energy per area.
 
@@ -198,7 +198,7 @@ class MaugisDugdale(_Sphere):
     Parameters
     ----------
     radius, modulus, work_of_adhesion
-        Those of `Jkr`.
+        Radius, modulus and work of adhesion, as `Jkr` has them.
     range : float
         Range ρ, a length.
 
@@ -280,7 +280,7 @@ class AdhesiveWavyLine(_Wave):
     Parameters
     ----------
     amplitude, wavelength, modulus
-        Those of `WavyLine`.
+        Amplitude, wavelength and modulus, as `WavyLine` has them.
     work_of_adhesion : float
         Work of adhesion w, an energy per area.
 

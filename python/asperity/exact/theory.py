@@ -37,7 +37,7 @@ class _Theory(Formula):
         Parameters
         ----------
         heights, lengths, axes
-            Those of `asperity.surface.statistics`; the side lengths are needed, unless the heights bring them.
+            As `asperity.surface.statistics` takes them; the side lengths are needed, unless the heights bring them.
         modulus : float
             Contact modulus E*, a pressure.
         """
@@ -59,9 +59,10 @@ class Persson(_Theory):
     """Persson's theory of the contact area, and of the mean gap by the spectrum of a surface.
 
     The contact fraction is erf(√2 p̄/(E*h')), with the rms slope h' of the whole gradient. At light loads its slope is
-    √(8/π) = 1.6, and that of solved surfaces is about 2. The mean gap is ∫ (dU/dp) dp/p from p̄ on, with the elastic
-    energy per area U = ½πE* ∫ q²C P (γ + (1 − γ)P²) dq, where P is the contact fraction by the waves up to q, and γ =
-    0.45. Mean gaps of solves are some 5 % from it up to a contact fraction of a half, and larger near to full contact.
+    √(8/π) = 1.6, and the slope of solved surfaces is about 2. The mean gap is ∫ (dU/dp) dp/p from p̄ on, with the
+    elastic energy per area U = ½πE* ∫ q²C P (γ + (1 − γ)P²) dq, where P is the contact fraction by the waves up to q,
+    and γ = 0.45. Mean gaps of solves are some 5 % from it up to a contact fraction of a half, and larger near to full
+    contact.
 
     Persson (2001); Yang and Persson (2008); Almqvist, Campañá, Prodanov and Persson (2011).
 

@@ -54,7 +54,7 @@ class CutOff(ParameterLaw):
 
 
 class Varying(ParameterLaw):
-    """A law of which the work of adhesion differs from node to node: energy, traction and slope in proportion to it.
+    """A law with a work of adhesion that differs from node to node: energy, traction and slope in proportion to it.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class Varying(ParameterLaw):
         Works of adhesion ≥ 0 at the nodes of the heights, energies per area; x along the first axis, unless ``axes`` or
         the dimensions of a DataArray say otherwise.
     axes : {"xy", "yx"}, optional
-        Order of the axes of an array; "yx" is that of images. Heights with y along their first axis ask for it.
+        Order of the axes of an array; "yx" for images. Heights with y along their first axis ask for it.
 
     Examples
     --------

@@ -69,7 +69,7 @@ class Exponential(Formula):
 class JKR(Formula):
     """The law without a range, the limit of Johnson, Kendall and Roberts, as short on each grid as its nodes can follow.
 
-    For contacts of which the work of adhesion is known, and no range. `Report.range` is that of the grid,
+    For contacts with a known work of adhesion, and no known range. `Report.range` is the range on the grid,
     √(13wΔx/E*). By itself the law attracts in contact alone.
 
     Parameters

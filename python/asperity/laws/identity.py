@@ -24,7 +24,7 @@ def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | 
 
 
 def unwrapped(law: Any) -> tuple[Any, Any]:
-    """The law of which a law that ends or varies is made, and its works of adhesion."""
+    """The law inside a law that ends or varies, and its works of adhesion."""
     works = None
     while isinstance(law, (CutOff, Varying)):
         if isinstance(law, Varying):

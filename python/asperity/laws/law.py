@@ -12,7 +12,7 @@ L = TypeVar("L", bound="ParameterLaw")
 
 
 class ParameterLaw(Law):
-    """A law of a few parameters, whose names are those by which it matches."""
+    """A law of a few parameters, by the names of which it matches."""
 
     __match_args__: ClassVar[tuple[str, ...]] = ()
     _values: tuple[Any, ...]

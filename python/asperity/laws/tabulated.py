@@ -13,7 +13,7 @@ from .law import ParameterLaw
 
 
 class Tabulated(ParameterLaw):
-    """A law of which the traction is a monotone cubic through the points of a table.
+    """A law with a traction that is a monotone cubic through the points of a table.
 
     Parameters
     ----------

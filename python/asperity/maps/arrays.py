@@ -53,7 +53,7 @@ def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) 
 
 
 def order_of(values: Any, axes: AxisOrder | None) -> AxisOrder:
-    """The order of the axes of an array: that of the names of its dimensions, or the one that is given."""
+    """The order of the axes of an array: by the names of its dimensions, or as it is given."""
     if axes not in (None, "xy", "yx"):
         raise ValueError(f"axes is {axes!r}: it must be 'xy', x along the first axis, or 'yx', as of an image")
     dims = [str(dim).lower() for dim in values.dims] if is_data_array(values) else []

@@ -27,8 +27,8 @@ def read(
     Parameters
     ----------
     path : str or path
-        ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
-        Or the file of an instrument, with that package.
+        ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content
+        decides. Or the file of an instrument, with that package.
     channel : int or str, optional
         Channel of a ``.gwy`` file, of a text file with several blocks of numbers, or of the file of an instrument, by
         number or title; needed only if several have heights.
@@ -42,7 +42,7 @@ def read(
     Returns
     -------
     Topography
-        In metres where the file has a unit of length; missing points are NaN. The first line of an image is that of the
+        In metres where the file has a unit of length; missing points are NaN. The first line of an image has the
         largest y. The ``log`` names what else the file contains: other channels, a mask, and lines that may give a size
         but are not understood.
 

@@ -46,10 +46,10 @@ def found(heights: Heights, axes: AxisOrder | None, name: str = "heights") -> To
 
 
 def knows_axes(heights: Heights) -> bool:
-    """Whether heights are a map or a file, whose axes are known."""
+    """Whether heights are a map or a file, with known axes."""
     return isinstance(heights, Topography | str | os.PathLike) or is_topography(heights)
 
 
 def axes_of(heights: Heights, axes: AxisOrder | None) -> AxisOrder:
-    """The order of the axes of heights: that of a map, of the names of dimensions, or the one that is given."""
+    """The order of the axes of heights: of a map, by the names of dimensions, or as it is given."""
     return "xy" if knows_axes(heights) else order_of(labelled(heights, axes), axes)

@@ -20,7 +20,7 @@ def from_topography(topography: HeightMap) -> Topography:
     Parameters
     ----------
     topography : object
-        With ``heights()``, an array of which masked points are missing, ``physical_sizes``, and ``is_periodic``;
+        With ``heights()``, an array with masked points where some are missing, ``physical_sizes``, and ``is_periodic``;
         ``unit`` comes along where it is there.
 
     Returns

@@ -60,7 +60,7 @@ def contact_modulus(
     poisson : float
         Poisson's ratio ν, greater than -1 and at most 0.5.
     other_young, other_poisson : float, optional
-        Those of a second body, which is rigid without them.
+        Modulus and ratio of a second body, which is rigid without them.
 
     Returns
     -------

@@ -54,15 +54,15 @@ def prepare(
     Parameters
     ----------
     heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
-        Heights; NaN, infinite and masked points are missing. A DataFrame whose index and columns are numbers has them
+        Heights; NaN, infinite and masked points are missing. A DataFrame with numbers as index and columns has them
         as coordinates, y along its index and x along its columns, unless their names x and y or ``axes`` say otherwise.
         Integers that count, as pandas sets them, and words are no coordinates: it is an array then. Coordinates along
         one of the two alone are refused.
     lengths : float or (float, float), optional
-        Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
+        Side lengths (Lx, Ly); one alone means square cells. By default the side lengths of the map.
     axes : {"xy", "yx"}, optional
-        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray whose
-        dimensions are named x and y, or a DataFrame with coordinates, does not need it. The result has x along the first
+        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray with
+        dimensions named x and y, or a DataFrame with coordinates, does not need it. The result has x along the first
         axis.
     masked : bool
         Whether the points under the mask of a ``.gwy`` file are missing.
@@ -77,13 +77,13 @@ def prepare(
     flip : bool
         Peaks become valleys.
     clean : bool
-        Cleans the map of an AFM: ``align_rows="median"``, ``remove_scars``, ``despike``, ``detrend="plane"`` and ``fill``,
-        but for those that are given otherwise.
+        Cleans the map of an AFM: ``align_rows="median"``, ``remove_scars``, ``despike``, ``detrend="plane"`` and
+        ``fill``, but for those that are given otherwise.
     without : {"rows", "scars", "spikes", "plane", "holes"} or list of str
         Parts of ``clean`` to leave out.
     align_rows : {"median", "median-difference"} or int, optional
-        Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
-        to line, for large features, or by a polynomial of this order, subtracted from each line.
+        Brings the scan lines of an AFM to one height: by the median of each line, by the median of the differences from
+        line to line, for large features, or by a polynomial of this order, subtracted from each line.
     scan_axis : {"x", "y"}
         Direction of the scan lines. If lines along the other direction have by far the larger offsets, an
         `InputWarning` says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.

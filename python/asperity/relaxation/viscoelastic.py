@@ -1,10 +1,10 @@
 """Contact of a viscoelastic body over time.
 
-The relaxation modulus is E(t) = E₀ (g∞ + Σ gₖ exp(−t/τₖ)), with g∞ = 1 − Σ gₖ, and the operator of the stiffness K is
-that of E₀. Then the pressure is K (g∞ u + Σ qₖ), where qₖ' + qₖ/τₖ = gₖ u' at each node. In a step Δt along which u is
-linear qₖ becomes dₖ qₖ + gₖ cₖ Δu, with aₖ = Δt/τₖ, dₖ = exp(−aₖ) and cₖ = (1 − dₖ)/aₖ. So the pressure at its end is
-s K (u − v), with s = g∞ + Σ gₖ cₖ and s v = Σ (gₖ cₖ u − dₖ qₖ) of its start: that of an elastic body of the modulus s E₀
-under heights that are lower by v. The error of a step is of the third order, and that of a time of the second.
+The relaxation modulus is E(t) = E₀ (g∞ + Σ gₖ exp(−t/τₖ)), with g∞ = 1 − Σ gₖ, and the operator of the stiffness K has
+the modulus E₀. Then the pressure is K (g∞ u + Σ qₖ), where qₖ' + qₖ/τₖ = gₖ u' at each node. In a step Δt along which u
+is linear qₖ becomes dₖ qₖ + gₖ cₖ Δu, with aₖ = Δt/τₖ, dₖ = exp(−aₖ) and cₖ = (1 − dₖ)/aₖ. So the pressure at its end
+is s K (u − v), with s = g∞ + Σ gₖ cₖ and s v = Σ (gₖ cₖ u − dₖ qₖ) of its start, as in an elastic body of the modulus s
+E₀ under heights that are lower by v. The error of a step is of the third order, and the error of a time of the second.
 """
 
 from __future__ import annotations
@@ -52,12 +52,12 @@ class Moment(NamedTuple):
     time : float
         Its time.
     solution : Solution
-        Gap, pressures and contact at that time. They are those of an elastic body with the modulus of the step, under
-        heights that the memory of the body has lowered: heights, displacement, approach and elastic energy of the solution
-        are those of this body.
+        Gap, pressures and contact at that time. They belong to an elastic body with the modulus of the step, under
+        heights that the memory of the body has lowered, and so do heights, displacement, approach and elastic energy of
+        the solution.
     displacement : ndarray
-        Displacement of the viscoelastic body, of the shape of the heights; with a periodic boundary up to a constant, and
-        zero at absent nodes.
+        Displacement of the viscoelastic body, of the shape of the heights; with a periodic boundary up to a constant,
+        and zero at absent nodes.
     approach : float or None
         Approach, with a free boundary.
     stored : float
@@ -190,7 +190,7 @@ class Viscoelastic(Rows[Moment]):
         return self._moment
 
     def _shifted(self, load: float, by: float) -> dict[str, float]:
-        """The load of the lowered heights, whose approach counts from another first touch."""
+        """The load of the lowered heights, with an approach that counts from another first touch."""
         if self._load == "approach":
             load += by
         return {self._load: load}

@@ -66,7 +66,7 @@ def chosen(path: Any, found: Any, number: int) -> Any:
 
 
 def columns(path: Any, curve: Any) -> tuple[list[Column], Array | None]:
-    """The columns of a curve, and the segments of its points, those of a pause negative."""
+    """The columns of a curve, and the segments of its points, negative in a pause."""
     try:
         with _silent():
             names = [name for name in curve.columns if name not in ("segment", "time", "index")]
