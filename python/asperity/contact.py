@@ -11,7 +11,7 @@ from . import _asperity
 from .answers.findings import ContactStatistics
 from .answers.solution import Solution
 from .common.summary import summary
-from .maps.arrays import field_of
+from .maps.arrays import read_field
 
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 
@@ -128,7 +128,7 @@ def tables(solution: Solution) -> ContactTables:
     >>> bool(abs(found.clusters[:, 3].sum() / 0.01 - 1) < 1e-5)  # the clusters carry the load
     True
     """
-    gap, pressure = field_of(solution.gap, "gaps"), field_of(solution.contact_pressure, "pressures")
+    gap, pressure = read_field(solution.gap, "gaps"), read_field(solution.contact_pressure, "pressures")
     boundary = "original" if solution.report["part"] == "original" else solution.boundary
     found = _asperity.contact_tables(gap, pressure, solution.lengths, boundary)
     figures = found["figures"]

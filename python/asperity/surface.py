@@ -20,10 +20,10 @@ from . import _asperity
 from .common.summary import summary
 from .common.types import AxisOrder, Lengths, Quantity, Shape, Tilt
 from .common.units import in_si, plain
-from .common.words import named
+from .common.words import suggests
 from .maps.arrays import side_lengths
-from .maps.heights import Heights, taken
-from .maps.topography import Topography, sides
+from .maps.heights import Heights, convert_heights
+from .maps.topography import Topography, require_lengths
 
 __all__ = [
     "PowerSpectralDensity",
@@ -100,7 +100,7 @@ class PowerSpectralDensity(NamedTuple):
         return summary(self)
 
 
-@named
+@suggests
 def self_affine(
     shape: Shape,
     lengths: Lengths,
@@ -154,10 +154,10 @@ def self_affine(
         "random_phase": random_phase,
         "seed": seed,
     }
-    return _made(shape, lengths, roughness, tilt=tilt, periodic=None if tilt else True, seed=seed, is_si=is_si)
+    return _make(shape, lengths, roughness, tilt=tilt, periodic=None if tilt else True, seed=seed, is_si=is_si)
 
 
-@named
+@suggests
 def sphere(
     shape: Shape, lengths: Lengths, *, radius: Quantity, tilt: Tilt = None
 ) -> Topography:
@@ -185,31 +185,31 @@ def sphere(
     '1.00'
     """
     lengths, radius, is_si = in_si(lengths=lengths, radius=radius)
-    return _made(shape, lengths, form="sphere", radius=radius, tilt=tilt, is_si=is_si)
+    return _make(shape, lengths, form="sphere", radius=radius, tilt=tilt, is_si=is_si)
 
 
-@named
+@suggests
 def paraboloid(shape: Shape, lengths: Lengths, *, radius: Quantity, tilt: Tilt = None) -> Topography:
     """Makes a paraboloid, −r²/2R with the radius of curvature R; see `sphere`."""
     lengths, radius, is_si = in_si(lengths=lengths, radius=radius)
-    return _made(shape, lengths, form="paraboloid", radius=radius, tilt=tilt, is_si=is_si)
+    return _make(shape, lengths, form="paraboloid", radius=radius, tilt=tilt, is_si=is_si)
 
 
-@named
+@suggests
 def cone(shape: Shape, lengths: Lengths, *, angle: float, tilt: Tilt = None) -> Topography:
     """Makes a cone, −r tan(angle), with the angle in degrees between its side and the half-space; see `sphere`."""
     lengths, is_si = in_si(lengths=lengths)
-    return _made(shape, lengths, form="cone", angle=angle, tilt=tilt, is_si=is_si)
+    return _make(shape, lengths, form="cone", angle=angle, tilt=tilt, is_si=is_si)
 
 
-@named
+@suggests
 def flat_punch(shape: Shape, lengths: Lengths, *, radius: Quantity, tilt: Tilt = None) -> Topography:
     """Makes a flat punch: 0 up to its radius, missing points beyond; see `sphere`."""
     lengths, radius, is_si = in_si(lengths=lengths, radius=radius)
-    return _made(shape, lengths, form="flat-punch", radius=radius, tilt=tilt, is_si=is_si)
+    return _make(shape, lengths, form="flat-punch", radius=radius, tilt=tilt, is_si=is_si)
 
 
-@named
+@suggests
 def wave(
     shape: Shape,
     lengths: Lengths,
@@ -221,10 +221,10 @@ def wave(
     """Makes a wave, A cos(2πmₓx/Lx) cos(2πmᵧy/Ly) with its amplitude A and the periods (mₓ, mᵧ); see `sphere`."""
     lengths, amplitude, is_si = in_si(lengths=lengths, amplitude=amplitude)
     body: dict[str, Any] = {"form": "wave", "amplitude": amplitude, "periods": np.ravel(periods)}
-    return _made(shape, lengths, tilt=tilt, periodic=None if tilt else True, is_si=is_si, **body)
+    return _make(shape, lengths, tilt=tilt, periodic=None if tilt else True, is_si=is_si, **body)
 
 
-def _made(
+def _make(
     shape: Shape,
     lengths: Lengths,
     roughness: dict[str, Any] | None = None,
@@ -235,7 +235,7 @@ def _made(
     is_si: bool,
     **body: Any,
 ) -> Topography:
-    nodes, is_line = _nodes(shape)
+    nodes, is_line = _read_shape(shape)
     both = side_lengths(lengths, nodes)
     body["tilt"] = None if tilt is None else np.ravel(tilt)
     heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
@@ -243,13 +243,13 @@ def _made(
     return Topography(heights, both, unit, periodic, seed=seed, _is_line=is_line)
 
 
-def _nodes(shape: Shape) -> tuple[Any, bool]:
+def _read_shape(shape: Shape) -> tuple[Any, bool]:
     """Numbers of nodes along both sides, and whether they are of a line."""
     nodes = (shape, shape) if isinstance(shape, int) else tuple(shape)
     return (nodes[0], 1) if len(nodes) == 1 else nodes, len(nodes) == 1
 
 
-@named
+@suggests
 def fourier(
     coefficients: ArrayLike | str | os.PathLike[str],
     shape: Shape,
@@ -287,7 +287,7 @@ def fourier(
     lengths, fourier_unit, is_si = in_si(lengths=lengths, fourier_unit=fourier_unit)
     if is_si and fourier_unit is None:
         raise ValueError("the side lengths have a unit, but the coefficients have none: give fourier_unit, as '0.1mm'")
-    nodes, is_line = _nodes(shape)
+    nodes, is_line = _read_shape(shape)
     both = side_lengths(lengths, nodes)
     source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
     rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
@@ -299,7 +299,7 @@ def fourier(
     return Topography(heights, both, unit, periodic=True, source=source, _is_line=is_line)
 
 
-@named
+@suggests
 def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> SurfaceStatistics:
     """Computes the statistics of heights, slopes and curvatures.
 
@@ -317,11 +317,11 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
     SurfaceStatistics
     """
     lengths, is_si = in_si(lengths=lengths)
-    topography = taken(heights, lengths, axes, is_si)
+    topography = convert_heights(heights, lengths, axes, is_si)
     return SurfaceStatistics(*_asperity.statistics(topography.heights, topography.lengths).values())
 
 
-@named
+@suggests
 def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> PowerSpectralDensity:
     """Computes the power spectral density, averaged over directions.
 
@@ -344,11 +344,11 @@ def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrde
     '0.0100'
     """
     lengths, is_si = in_si(lengths=lengths)
-    topography = taken(heights, lengths, axes, is_si)
-    return PowerSpectralDensity(*_asperity.spectrum(topography.heights, sides(topography)))
+    topography = convert_heights(heights, lengths, axes, is_si)
+    return PowerSpectralDensity(*_asperity.spectrum(topography.heights, require_lengths(topography)))
 
 
-@named
+@suggests
 def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> float | None:
     """Finds the wavelength at which the power spectral density flattens to a floor of noise.
 
@@ -377,5 +377,5 @@ def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: A
     True
     """
     lengths, is_si = in_si(lengths=lengths)
-    topography = taken(heights, lengths, axes, is_si)
-    return _asperity.knee_wavelength(topography.heights, sides(topography))
+    topography = convert_heights(heights, lengths, axes, is_si)
+    return _asperity.knee_wavelength(topography.heights, require_lengths(topography))

@@ -25,7 +25,7 @@ impl Functions {
     /// # Errors
     /// `TypeError` if it lacks a function.
     pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let scales = object.py().import("asperity.common.functions")?.call_method1("scales", (object,))?;
+        let scales = object.py().import("asperity.common.functions")?.call_method1("read_scales", (object,))?;
         let (work_of_adhesion, range) = scales.extract()?;
         Ok(Self { object: object.clone().unbind(), work_of_adhesion, range })
     }
@@ -69,7 +69,7 @@ pub fn at_arrays(
     let py = function.py();
     let arrays: Vec<_> = arrays.iter().map(|array| PyArray1::from_slice(py, array)).collect();
     let called =
-        py.import("asperity.common.functions")?.call_method1("called", (function, name, of, arrays, one_of_all))?;
+        py.import("asperity.common.functions")?.call_method1("evaluate", (function, name, of, arrays, one_of_all))?;
     Ok(called.extract::<Numbers<'_>>()?.as_array().iter().copied().collect())
 }
 

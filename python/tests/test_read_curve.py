@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.curves.branches import ordered
+from asperity.curves.branches import order_branches
 from force_curves import curve
 
 Z, FORCE = np.array([-10.5, 0.25, 2.0]), np.array([-0.5, 0.25, 3.5])
@@ -79,9 +79,9 @@ def test_the_approach_comes_first_whatever_the_order_of_a_file(layout, tmp_path)
     np.savetxt(path, 1e9 * np.hstack(branches).T, "%.6f", **heading)
     assert np.array(asperity.read_curve(path)) == pytest.approx(made, abs=1e-15)
     # backwards in time the withdrawal looks like an approach
-    assert ordered(*made)[2] == ""
+    assert order_branches(*made)[2] == ""
     told = "branches: the force falls by 5e-09 as z grows, and by 4.27e-09 as it falls"
-    assert ordered(*made[:, ::-1])[2].startswith(told)
+    assert order_branches(*made[:, ::-1])[2].startswith(told)
 
 
 def test_pauses_are_left_out_and_told(tmp_path):

@@ -167,7 +167,7 @@ class Cycle(Rows[Step]):
         """
         own = self._contact.topography.unit, self._contact.pressure_unit
         newtons = "N" if (own[0] or length_unit, own[1] or pressure_unit) == ("m", "Pa") else None
-        length = figures.shown("length_unit", own[0], length_unit)
-        pressure = figures.shown("pressure_unit", own[1], pressure_unit)
-        force = figures.shown("force_unit", newtons, force_unit)
+        length = figures.axis_unit("length_unit", own[0], length_unit)
+        pressure = figures.axis_unit("pressure_unit", own[1], pressure_unit)
+        force = figures.axis_unit("force_unit", newtons, force_unit)
         return figures.cycle(self.columns, ax, length, pressure, force)

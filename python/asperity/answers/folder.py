@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from .. import _asperity
 from ..bodies.body import Coating, Layer
 from ..common.types import OwnLaw
-from ..maps.arrays import mirrored
-from ..maps.heights import Heights, taken
+from ..maps.arrays import mirror_field
+from ..maps.heights import Heights, convert_heights
 from ..maps.topography import Topography
 from .findings import ContactStatistics
 from .solution import FIELDS, OTHERS, Solution
@@ -69,7 +69,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     # absent nodes have no gap
     fields["gap"] = np.where(np.isnan(fields["gap"]), np.inf, fields["gap"])
     if heights is not None:
-        fields["heights"] = taken(heights, is_si=told["length_unit"] == "m").heights
+        fields["heights"] = convert_heights(heights, is_si=told["length_unit"] == "m").heights
         if fields["heights"].shape != shape:
             raise ValueError(f"heights have shape {fields['heights'].shape}: those that were solved have {shape}")
     if fields["heights"] is not None:
@@ -82,12 +82,12 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     is_line = shape[1] == 1
     of: Any = whole[:1] if is_line else whole
     if fields["heights"] is not None:
-        map_of = mirrored(np.asarray(fields["heights"], np.float64), whole)
+        map_of = mirror_field(np.asarray(fields["heights"], np.float64), whole)
         source, unit, nodes = told["heights"], told["length_unit"], None if is_whole else shape
         of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
     if law is None and told["law"] != "none":
         law = told["law"]
-    fields = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
+    fields = {name: None if field is None else mirror_field(field, whole) for name, field in fields.items()}
     solution = Solution(of, (_body(told), law), told, {**fields, "look": None, "displacements": None})
     sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")
     apart = 1.0 - told["repulsive_fraction"] - told["attractive_fraction"]

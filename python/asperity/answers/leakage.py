@@ -12,9 +12,9 @@ from ..common.summary import summary
 from ..common.types import Boundary, Lengths, Quantity
 from ..common.units import in_si, number
 from ..common.warnings import ConvergenceWarning, warn
-from ..common.words import named
-from ..maps.arrays import field_of
-from ..maps.heights import Heights, taken
+from ..common.words import suggests
+from ..maps.arrays import read_field
+from ..maps.heights import Heights, convert_heights
 from ..maps.topography import Topography
 from .findings import Constriction
 from .solution import Solution
@@ -82,7 +82,7 @@ class Leakage(NamedTuple):
         return "\n".join(lines)
 
 
-@named
+@suggests
 def leakage(
     gap: Solution | Heights,
     lengths: Lengths | None = None,
@@ -146,9 +146,9 @@ def leakage(
         if lengths is not None:
             raise ValueError("the solution has its side lengths: leave lengths out")
         name, value = ("absent_gap", absent) if viscous is None else ("viscosity", viscous)
-        unit, own = gap._unit_beside(name, value, is_si), gap.flow_boundary
-        gap = Topography(field_of(gap.gap, "gaps"), gap.lengths, unit)
-    topography = taken(gap, lengths, is_si=is_si, name="gaps")
+        unit, own = gap._check_units(name, value, is_si), gap.flow_boundary
+        gap = Topography(read_field(gap.gap, "gaps"), gap.lengths, unit)
+    topography = convert_heights(gap, lengths, is_si=is_si, name="gaps")
     field, sides = topography.heights, topography.lengths or (1.0, 1.0)
     found = _asperity.leakage(field, solved, sides, boundary or own, absent, viscous, tolerance, max_iterations)
     if found["shortfall"] is not None:

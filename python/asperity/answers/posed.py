@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from .. import _asperity
 from ..bodies.body import symbol
-from ..common.warnings import AccuracyWarning, ConvergenceWarning, warn, warn_of_input
-from ..maps.arrays import field_of, mirrored
-from ..maps.topography import Topography, refined
+from ..common.warnings import AccuracyWarning, ConvergenceWarning, warn, warn_input
+from ..maps.arrays import mirror_field, read_field
+from ..maps.topography import Topography, refine
 from .solution import Solution, Start
 
 P = TypeVar("P", bound="Posed")
@@ -103,8 +103,8 @@ class Posed:
         """The gap from which to start, as the compiled core takes it."""
         if start is None or isinstance(start, str):
             return start
-        gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
-        return mirrored(gap, self.topography.heights.shape) if gap.shape == self.topography.original else gap
+        gap = read_field(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
+        return mirror_field(gap, self.topography.heights.shape) if gap.shape == self.topography.original else gap
 
     def _relaxed(
         self, heights: NDArray[np.float64], share: float, load: dict[str, Any], start: Start, observe: Any
@@ -127,7 +127,7 @@ class Posed:
         told, topography = found["told"], self.topography
         if "heights" in found:
             # those of an accuracy
-            topography = refined(topography, found["heights"])
+            topography = refine(topography, found["heights"])
         solution = Solution(topography, (self.body, self.law), told, found)
         raised = found["raised"]
         if raised is not None:
@@ -138,7 +138,7 @@ class Posed:
         for warning in told["warnings"]:
             if warning["code"] not in self._warned:
                 self._warned.add(warning["code"])
-                warn_of_input(warning)
+                warn_input(warning)
         for what, text in found["shortfalls"]:
             warn(text, AccuracyWarning if what == "accuracy" else ConvergenceWarning)
         return solution

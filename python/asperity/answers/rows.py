@@ -80,7 +80,7 @@ class Rows(Iterator[T]):
         if pace is not None:
             self._seconds_left, told = pace
             if isinstance(self._observe, progress):
-                self._observe._tell(told)
+                self._observe._show_pace(told)
 
     def run(self: R) -> R:
         """Solves what is left, and returns itself."""

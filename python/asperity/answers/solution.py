@@ -14,8 +14,8 @@ from .. import _asperity
 from ..common.optional import package
 from ..common.types import Boundary, Quantity, Report, Status
 from ..common.units import in_si, in_unit
-from ..common.words import named
-from ..maps.arrays import field_of
+from ..common.words import suggests
+from ..maps.arrays import read_field
 from ..maps.topography import Topography
 from ..plot import figures
 from .findings import (
@@ -164,7 +164,7 @@ class Solution:
         >>> bool(abs(sum(density) * edges[1] - solution.contact_fraction) < 1e-12)
         True
         """
-        gap, pressure = field_of(self.gap, "gaps"), field_of(self.contact_pressure, "pressures")
+        gap, pressure = read_field(self.gap, "gaps"), read_field(self.contact_pressure, "pressures")
         return PressureDistribution(*_asperity.pressure_distribution(gap, pressure, bins))
 
     @property
@@ -186,11 +186,11 @@ class Solution:
         >>> light.x is not None, heavy.x is None
         (True, True)
         """
-        found = _asperity.percolation(field_of(self.gap, "gaps"), self.lengths, self.flow_boundary)
+        found = _asperity.percolation(read_field(self.gap, "gaps"), self.lengths, self.flow_boundary)
         x, y = (None if along is None else Constriction(*along) for along in found)
         return Percolation(x, y)
 
-    @named
+    @suggests
     def conductance(self, resistivities: tuple[Quantity, Quantity]) -> Conductance:
         """Conductance of the contact between two half-spaces, by its stiffness at fixed spots (Barber's identity).
 
@@ -223,9 +223,9 @@ class Solution:
             raise ValueError(f"the wall is {self._told['wall']}: only a hard wall says where the surfaces conduct")
         resistivities, is_si = in_si(resistivities=resistivities)
         first, second = (float(one) for one in resistivities)
-        gap = field_of(self.whole_gap, "gaps")
+        gap = read_field(self.whole_gap, "gaps")
         shares = zip(self.lengths, gap.shape, self._told["shape"], strict=True)
-        unit = self._unit_beside("resistivities", (first, second), is_si)
+        unit = self._check_units("resistivities", (first, second), is_si)
         metre = in_unit("length_unit", unit) if is_si else 1.0
         lx, ly = (metre * (length if nodes == part else length / part * nodes) for length, nodes, part in shares)
         per_area, _, error = _asperity.conductance(gap <= 0, (lx, ly), self.boundary, (first, second))
@@ -300,7 +300,7 @@ class Solution:
         lx, ly = self._told["lengths"]
         return (lx, ly)
 
-    def _unit_beside(self, name: str, value: Any, is_si: bool) -> str | None:
+    def _check_units(self, name: str, value: Any, is_si: bool) -> str | None:
         """The unit of lengths, without which a solution refuses a quantity with a unit."""
         unit = self._told["length_unit"]
         if unit is None and is_si:
@@ -488,8 +488,8 @@ class Solution:
         # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
         adhesive = self.report["law"] != "none"
         pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
-        length = figures.shown("length_unit", self.report["length_unit"], length_unit)
-        units = length, figures.shown("pressure_unit", self.report["pressure_unit"], pressure_unit)
+        length = figures.axis_unit("length_unit", self.report["length_unit"], length_unit)
+        units = length, figures.axis_unit("pressure_unit", self.report["pressure_unit"], pressure_unit)
         if colour_limits is not None and not (colour_limits[0] <= 0.0 < colour_limits[1]):
             raise ValueError(
                 f"colour_limits are {colour_limits!r}: they must be (low, high), low zero or negative, and high positive"

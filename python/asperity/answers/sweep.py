@@ -78,8 +78,8 @@ class Sweep(Rows[Solution]):
         if name is None:
             raise ValueError(f"of is {of!r}: it must be 'area' or 'gap'")
         theories = _theories(self._contact) if theory else ()
-        length = figures.shown("length_unit", self._contact.topography.unit, length_unit)
-        pressure = figures.shown("pressure_unit", self._contact.pressure_unit, pressure_unit)
+        length = figures.axis_unit("length_unit", self._contact.topography.unit, length_unit)
+        pressure = figures.axis_unit("pressure_unit", self._contact.pressure_unit, pressure_unit)
         return figures.sweep(self.columns, name, theories, ax, length, pressure)
 
 

@@ -25,7 +25,7 @@ from ..answers.sweep import Sweep
 from ..bodies.body import Body, Symbol
 from ..bodies.measured import Measured
 from ..bodies.wall import Penalty, Uzawa
-from ..common.progress import by_default
+from ..common.progress import default_progress
 from ..common.types import (
     AccuracyOf,
     AxisOrder,
@@ -42,25 +42,25 @@ from ..common.types import (
 )
 from ..common.units import shown
 from ..common.warnings import ConvergenceWarning, InputWarning, warn
-from ..common.words import named
+from ..common.words import suggests
 from ..laws.composite import Varying
-from ..maps.arrays import field_of
-from ..maps.heights import Heights, axes_of, taken
-from ..maps.pair import along_both, between
-from ..maps.topography import Topography, sides
+from ..maps.arrays import read_field
+from ..maps.heights import Heights, convert_heights, read_axes
+from ..maps.pair import combine, shift_pair
+from ..maps.topography import Topography, require_lengths
 from ..relaxation.viscoelastic import Viscoelastic
-from .keywords import OF_LAWS, given, refuse_beside, replace_spring, split_springs
+from .keywords import OF_LAWS, pick, refuse_both, replace_spring, split_springs
 
 R = TypeVar("R", bound=Rows[Any])
 T = TypeVar("T")
 
 
-def once(way: Callable[..., T], values: dict[str, Any]) -> T:
+def solve_once(way: Callable[..., T], values: dict[str, Any]) -> T:
     """Poses a contact problem by the values of a call, and solves it once by a method of the contact."""
     contact = Contact.__new__(Contact)
-    keys = given(Contact.__init__, values)
+    keys = pick(Contact.__init__, values)
     contact._pose(values["heights"], values["lengths"], values["axes"], keys, is_kept=False)
-    return way(contact, **given(way, values))
+    return way(contact, **pick(way, values))
 
 
 class Contact(Posed):
@@ -88,7 +88,7 @@ class Contact(Posed):
     # by this name pickles find it
     __module__ = "asperity"
 
-    @named
+    @suggests
     def __init__(
         self,
         heights: Heights,
@@ -126,7 +126,7 @@ class Contact(Posed):
         body: Body | None = None,
         against: Heights | None = None,
     ) -> None:
-        self._pose(heights, lengths, axes, given(Contact.__init__, locals()), is_kept=True)
+        self._pose(heights, lengths, axes, pick(Contact.__init__, locals()), is_kept=True)
 
     @classmethod
     def from_numbers(cls, topography: Topography, keys: dict[str, Any], is_si: bool) -> Contact:
@@ -155,10 +155,10 @@ class Contact(Posed):
         self.own_law = law
         self.body, self.law = body, law if law is not None else keys.get("law")
         if law is not None:
-            refuse_beside("law", OF_LAWS, keys)
+            refuse_both("law", OF_LAWS, keys)
         if not isinstance(body, Measured | Symbol | None):
             raise TypeError(f"body is {shown(body)}: it must be an asperity.Layer, Coating or Symbol")
-        order = axes_of(heights, axes)
+        order = read_axes(heights, axes)
         if order == "yx" and isinstance(law, Varying) and not law.knows_axes:
             raise ValueError(
                 "heights have y along their first axis, and the works of adhesion of law do not say whether they have: "
@@ -173,7 +173,7 @@ class Contact(Posed):
         for name, described in (("wall", wall), ("body", body)):
             if isinstance(described, Measured):
                 keys.pop(name, None)
-                refuse_beside(name, described.keys, keys)
+                refuse_both(name, described.keys, keys)
                 keys.update(described.keys)
         hardness = keys.pop("hardness") if np.ndim(keys.get("hardness", 0.0)) > 0 else None
         if hardness is not None and np.asarray(hardness).dtype == bool:
@@ -183,12 +183,12 @@ class Contact(Posed):
         self._keys, self._is_si, self._given = keys, is_si, _asperity.Keywords(keys, law, is_si)
         si = self._given.is_si
         self.pressure_unit = "Pa" if si else None
-        self.topography = taken(heights, self._given.numbers("lengths"), axes, is_si=si)
+        self.topography = convert_heights(heights, self._given.numbers("lengths"), axes, is_si=si)
         boundary, absent_missing = keys.get("boundary", "periodic"), bool(keys.get("absent_missing", False))
         facing, shift = None, self._given.numbers("shift")
         if against is not None:
-            moved = along_both(shift)
-            self.topography, name = between(
+            moved = shift_pair(shift)
+            self.topography, name = combine(
                 self.topography, against, moved, axes=axes, boundary=boundary, absent_missing=absent_missing, si=si
             )
             facing = (name, moved)
@@ -197,9 +197,9 @@ class Contact(Posed):
                 f"shift is {keys['shift']!r}, but there is no surface on the other side: give against, or leave it out"
             )
         # refused where they are unknown
-        sides(self.topography)
+        require_lengths(self.topography)
         self._facing, self._is_kept = facing, is_kept
-        self._hardness = None if hardness is None else field_of(hardness, "hardness", order).copy()
+        self._hardness = None if hardness is None else read_field(hardness, "hardness", order).copy()
         self._posed = self._problem(self.topography, self._given, is_kept)
         self.turns = Turns()
         if not isinstance(heights, Topography | str | os.PathLike) and against is None:
@@ -221,7 +221,7 @@ class Contact(Posed):
         told = [f"{key}={shown(value)}" for key, value in given.items() if value is not None and key != "lengths"]
         return f"Contact({', '.join([repr(self.topography), *told])})"
 
-    @named
+    @suggests
     def solve(
         self,
         *,
@@ -247,7 +247,7 @@ class Contact(Posed):
         spring: tuple[Quantity, Quantity] | None = None,
     ) -> Solution:
         """Finds the equilibrium under a load, as `asperity.solve`."""
-        start, observe, keys = self._split(given(Contact.solve, locals()), is_solve=True)
+        start, observe, keys = self._split(pick(Contact.solve, locals()), is_solve=True)
         replace_spring(keys)
         with self.turns:
             found = self.problem.solve(keys, self._start(start), observe)
@@ -255,7 +255,7 @@ class Contact(Posed):
             # within the turn, so that one of several threads warns
             return self._solution({**found, "plan": None if plan is None else Plan(*plan)})
 
-    @named
+    @suggests
     def sweep(
         self,
         *,
@@ -279,9 +279,9 @@ class Contact(Posed):
         fields: str | PathLike[str] | None = None,
     ) -> Sweep:
         """Solves under many loads, as `asperity.sweep`."""
-        return self._rows(Sweep, "sweep", given(Contact.sweep, locals()))
+        return self._rows(Sweep, "sweep", pick(Contact.sweep, locals()))
 
-    @named
+    @suggests
     def cycle(
         self,
         *,
@@ -304,10 +304,10 @@ class Contact(Posed):
         fields: str | PathLike[str] | None = None,
     ) -> Cycle:
         """Follows a branch of equilibria through turning points, as `asperity.cycle`."""
-        keys = given(Contact.cycle, locals())
+        keys = pick(Contact.cycle, locals())
         return self._rows(Cycle, "cycle", {"sharp": not keys.pop("smooth", True), **keys})
 
-    @named
+    @suggests
     def interface(
         self,
         *,
@@ -323,9 +323,9 @@ class Contact(Posed):
         force: bool | None = False,
     ) -> Interface:
         """Tabulates the law of an interface over the load, as `asperity.interface`."""
-        return self._rows(Interface, "interface", given(Contact.interface, locals()))
+        return self._rows(Interface, "interface", pick(Contact.interface, locals()))
 
-    @named
+    @suggests
     def pull_off(
         self,
         *,
@@ -337,7 +337,7 @@ class Contact(Posed):
         observe: Callable[[Iteration], object] | None = None,
     ) -> PullOff:
         """Finds the pull-off, as `asperity.pull_off`."""
-        start, observe, keys = self._split(given(Contact.pull_off, locals()))
+        start, observe, keys = self._split(pick(Contact.pull_off, locals()))
         if "accuracy" in keys and start is not None:
             raise ValueError("an accuracy takes finer grids, which have no start: leave out start, or accuracy")
         with self.turns:
@@ -349,7 +349,7 @@ class Contact(Posed):
         pressure, force = entries.pop("pull_off_pressure"), entries.pop("pull_off_force")
         return PullOff(pressure, force, **entries, solution=solution)
 
-    @named
+    @suggests
     def viscoelastic(
         self,
         *,
@@ -363,10 +363,10 @@ class Contact(Posed):
         approaches: Iterable[Quantity] | None = None,
     ) -> Viscoelastic:
         """Follows a viscoelastic body over time, as `asperity.viscoelastic`."""
-        start, observe, keys = self._split(given(Contact.viscoelastic, locals()))
+        start, observe, keys = self._split(pick(Contact.viscoelastic, locals()))
         return Viscoelastic(self, keys, start, observe)
 
-    @named
+    @suggests
     def stability(
         self,
         solution: Solution,
@@ -382,7 +382,7 @@ class Contact(Posed):
         spring: tuple[Quantity, Quantity] | None = None,
     ) -> Stability:
         """Finds out whether a solution is stable, as `asperity.stability`."""
-        keys = given(Contact.stability, locals())
+        keys = pick(Contact.stability, locals())
         replace_spring(keys)
         if not keys:
             name, value = solution.report["control"].replace("-", "_"), solution.report["control_value"]
@@ -396,7 +396,7 @@ class Contact(Posed):
 
     def _split(self, keys: dict[str, Any], *, is_solve: bool = False) -> tuple[Start, Any, dict[str, Any]]:
         """The start, the observer, and the keys of a call."""
-        start, observe = keys.pop("start", None), keys.pop("observe", None) or by_default()
+        start, observe = keys.pop("start", None), keys.pop("observe", None) or default_progress()
         if self.branch is not None and start is not None:
             raise ValueError("start chooses the branch: leave out branch, or start")
         if self.branch == "both" and not is_solve:

@@ -20,7 +20,7 @@ def defaults(function: Callable[..., Any]) -> dict[str, Any]:
     return {name: default for name, default in own.__kwdefaults__.items() if name != "axes"}
 
 
-def given(function: Callable[..., Any], values: dict[str, Any]) -> dict[str, Any]:
+def pick(function: Callable[..., Any], values: dict[str, Any]) -> dict[str, Any]:
     """The values of a call for the keywords of a function, but for None and defaults."""
     chosen = {}
     for name, default in defaults(function).items():
@@ -30,7 +30,7 @@ def given(function: Callable[..., Any], values: dict[str, Any]) -> dict[str, Any
     return chosen
 
 
-def refuse_beside(name: str, own: Iterable[str], keys: dict[str, Any]) -> None:
+def refuse_both(name: str, own: Iterable[str], keys: dict[str, Any]) -> None:
     """Refuses keywords next to an object that has them."""
     for key in own:
         if key in keys:
@@ -50,7 +50,7 @@ def replace_spring(keys: dict[str, Any]) -> None:
     """Replaces a spring by its two keywords."""
     spring = keys.pop("spring", None)
     if spring is not None:
-        refuse_beside("spring", ("spring_stiffness", "spring_position"), keys)
+        refuse_both("spring", ("spring_stiffness", "spring_position"), keys)
         keys["spring_stiffness"], keys["spring_position"] = split_spring("spring", spring)
 
 
@@ -59,7 +59,7 @@ def split_springs(keys: dict[str, Any]) -> list[dict[str, Any]]:
     springs = keys.pop("springs", None)
     if springs is None:
         return [keys]
-    refuse_beside("springs", ("spring_stiffness", "spring_positions"), keys)
+    refuse_both("springs", ("spring_stiffness", "spring_positions"), keys)
     parts: list[dict[str, Any]] = [
         {"spring_stiffness": stiffness, "spring_positions": [position for _, position in group]}
         for stiffness, group in groupby((split_spring("springs", spring) for spring in springs), key=itemgetter(0))

@@ -24,13 +24,13 @@ from ..common.types import (
     Quantity,
     WallName,
 )
-from ..common.words import named
+from ..common.words import suggests
 from ..maps.heights import Heights
 from ..relaxation.viscoelastic import Viscoelastic
-from .contact import Contact, once
+from .contact import Contact, solve_once
 
 
-@named
+@suggests
 def pull_off(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -112,10 +112,10 @@ def pull_off(
     >>> abs(found.force / exact - 1) < 0.02
     True
     """
-    return once(Contact.pull_off, locals())
+    return solve_once(Contact.pull_off, locals())
 
 
-@named
+@suggests
 def viscoelastic(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -205,4 +205,4 @@ def viscoelastic(
     >>> bool(np.allclose(found.columns["approach"], hertz, rtol=2e-3))
     True
     """
-    return once(Contact.viscoelastic, locals())
+    return solve_once(Contact.viscoelastic, locals())

@@ -27,14 +27,14 @@ from ..common.types import (
     Quantity,
     WallName,
 )
-from ..common.words import named
+from ..common.words import suggests
 from ..laws.formulas import FORMULAS
 from ..maps.heights import Heights
-from .contact import Contact, once
-from .keywords import OF_LAWS, defaults, given
+from .contact import Contact, solve_once
+from .keywords import OF_LAWS, defaults, pick
 
 
-@named
+@suggests
 def solve(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -290,10 +290,10 @@ def solve(
     >>> right.report["accuracy"], right.heights.shape
     ({'wanted': 0.01, 'of': 'area', 'reached': True}, (64, 64))
     """
-    return once(Contact.solve, locals())
+    return solve_once(Contact.solve, locals())
 
 
-@named
+@suggests
 def stability(
     solution: Solution,
     *,
@@ -364,4 +364,4 @@ def stability(
     keys["absent_missing"], keys["whole"] = report["absent_nodes"] > 0, report["part"] == "whole"
     keys["branch"] = None
     contact = Contact.from_numbers(solution.topography, keys, report["pressure_unit"] is not None)
-    return contact.stability(solution, **given(Contact.stability, load))
+    return contact.stability(solution, **pick(Contact.stability, load))

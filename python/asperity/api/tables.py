@@ -27,12 +27,12 @@ from ..common.types import (
     Quantity,
     WallName,
 )
-from ..common.words import named
+from ..common.words import suggests
 from ..maps.heights import Heights
-from .contact import Contact, once
+from .contact import Contact, solve_once
 
 
-@named
+@suggests
 def sweep(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -148,10 +148,10 @@ def sweep(
     >>> [f"{share:.2f}" for share in found["contact_fraction"]], [f"{p:.4f}" for p in found["mean_pressure"]]
     (['0.05', '0.10'], ['0.0019', '0.0040'])
     """
-    return once(Contact.sweep, locals())
+    return solve_once(Contact.sweep, locals())
 
 
-@named
+@suggests
 def cycle(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -264,10 +264,10 @@ def cycle(
     >>> bool(found.columns["mean_pressure"].min() < 0)  # the pull-off stress
     True
     """
-    return once(Contact.cycle, locals())
+    return solve_once(Contact.cycle, locals())
 
 
-@named
+@suggests
 def interface(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -334,4 +334,4 @@ def interface(
     >>> bool(np.isclose(slope, law["contact_stiffness"].mean(), rtol=law["stiffness_error"].max()).all())
     True
     """
-    return once(Contact.interface, locals())
+    return solve_once(Contact.interface, locals())

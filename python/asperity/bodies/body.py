@@ -129,7 +129,7 @@ class Symbol:
 
     def __init__(self, function: Callable[..., ArrayLike]) -> None:
         self.function = function
-        self._is_isotropic = _parameters_of(function) == 1
+        self._is_isotropic = _count_parameters(function) == 1
 
     def __repr__(self) -> str:
         return f"Symbol({self._name})"
@@ -139,7 +139,7 @@ class Symbol:
         return str(getattr(self.function, "__name__", type(self.function).__name__))
 
 
-def _parameters_of(function: Any) -> int:
+def _count_parameters(function: Any) -> int:
     """The number of parameters of a function of q, or of qx and qy."""
     if not callable(function):
         raise TypeError(f"function is {function!r}: it must be a function of q, or of qx and qy")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def scales(law: Any) -> tuple[Any, Any]:
+def read_scales(law: Any) -> tuple[Any, Any]:
     """Work of adhesion and range of an object with the functions of a law, as far as it has them."""
     for method in ("energy", "traction", "slope"):
         if not callable(getattr(law, method, None)):
@@ -20,14 +20,14 @@ def scales(law: Any) -> tuple[Any, Any]:
     return getattr(law, "work_of_adhesion", None), getattr(law, "range", None)
 
 
-def called(function: Callable[..., Any], name: str, of: str, arrays: list[NDArray[np.float64]], one_of_all: bool) -> Any:
+def evaluate(function: Callable[..., Any], name: str, of: str, arrays: list[NDArray[np.float64]], one_of_all: bool) -> Any:
     """A function of arrays by its name, at many of what it is a function `of`, in one call."""
     try:
         # what is not finite is refused by its place
         with np.errstate(all="ignore"):
             found = function(*arrays)
     except (ValueError, TypeError) as raised:
-        if arrays[0].size == 0 or not _takes(function, [float(array[0]) for array in arrays]):
+        if arrays[0].size == 0 or not _accepts(function, [float(array[0]) for array in arrays]):
             raise
         raise TypeError(
             f"{name} takes one {of} alone, and is given arrays of {of}s: write numpy.where(...) in the place of if, and "
@@ -44,7 +44,7 @@ def called(function: Callable[..., Any], name: str, of: str, arrays: list[NDArra
     return values
 
 
-def _takes(function: Callable[..., Any], numbers: list[float]) -> bool:
+def _accepts(function: Callable[..., Any], numbers: list[float]) -> bool:
     """Whether a function takes numbers."""
     try:
         function(*numbers)

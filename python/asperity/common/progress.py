@@ -21,15 +21,15 @@ _PAUSE = 0.1
 _PATIENCE = 2.0
 
 
-def by_default() -> progress | None:
+def default_progress() -> progress | None:
     """The progress of a call that takes long, on a terminal or in a notebook; None elsewhere."""
     is_seen = "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
     return progress(_PATIENCE) if is_seen and "TQDM_DISABLE" not in os.environ else None
 
 
-def counted(found: Iterable[T], total: int, unit: str) -> Iterator[T]:
+def show_progress(found: Iterable[T], total: int, unit: str) -> Iterator[T]:
     """What is found, one by one, with a bar where a call that takes long has one by default."""
-    observer, bar, begin, pending = by_default(), None, time.monotonic() + _PATIENCE, 0
+    observer, bar, begin, pending = default_progress(), None, time.monotonic() + _PATIENCE, 0
     for one in found:
         yield one
         pending += 1
@@ -77,7 +77,7 @@ class progress:
         """The seconds for which the core need not call this observer."""
         return self._begin - time.monotonic()
 
-    def _opened(self) -> Any:
+    def _open(self) -> Any:
         try:
             bar = importlib.import_module("tqdm.auto").tqdm(unit=" iterations", mininterval=_PAUSE)
         except ImportError:
@@ -88,13 +88,13 @@ class progress:
 
     def __call__(self, state: Iteration) -> None:
         if self._bar is None:
-            self._bar = self._opened()
+            self._bar = self._open()
         self._bar.set_postfix_str(f"{self._pace}error {state.relative_error:.1e}", refresh=False)
         # the count begins again on the next grid, and under the next load
         self._bar.update(state.iteration - (self._last if state.iteration >= self._last else 0))
         self._last = state.iteration
 
-    def _tell(self, pace: str) -> None:
+    def _show_pace(self, pace: str) -> None:
         """Shows the pace of a cycle from now on, in words."""
         self._pace = f"{pace}; "
 

@@ -31,7 +31,7 @@ class InputWarning(UserWarning):
     """
 
 
-def warn_of_input(found: dict[str, str]) -> None:
+def warn_input(found: dict[str, str]) -> None:
     """Gives a warning of the compiled core, its code and its message."""
     warn(f"{found['code']}: {found['message']}", InputWarning)
 

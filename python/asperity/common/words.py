@@ -25,14 +25,14 @@ PLURALS = {
 }
 
 
-def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
+def refuse_unknown(function: str, given: Iterable[str], known: Sequence[str]) -> None:
     """Refuses keywords that a function does not have, with those that they may mean."""
     for word in given:
         if word not in known:
-            raise TypeError(f"{function}() has no keyword {word}: {_meant(word, known)}")
+            raise TypeError(f"{function}() has no keyword {word}: {_suggest(word, known)}")
 
 
-def _meant(word: str, known: Sequence[str]) -> str:
+def _suggest(word: str, known: Sequence[str]) -> str:
     one = PLURALS.get(word)
     many = next((plural for plural, single in PLURALS.items() if single == word), None)
     if one in known:
@@ -43,7 +43,7 @@ def _meant(word: str, known: Sequence[str]) -> str:
     return f"did you mean {right}?" if right else f"it has {', '.join(known)}"
 
 
-def named(function: Callable[P, R]) -> Callable[P, R]:
+def suggests(function: Callable[P, R]) -> Callable[P, R]:
     """A function that suggests what an unknown keyword may mean."""
     code = inspect.unwrap(function).__code__
     known = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
@@ -52,7 +52,7 @@ def named(function: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(function)
     def call(*args: P.args, **keywords: P.kwargs) -> R:
-        check(name, keywords, own)
+        refuse_unknown(name, keywords, own)
         return function(*args, **keywords)
 
     return call

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..common.types import Quantity
 from ..common.units import in_unit, number
-from .branches import ordered
+from .branches import order_branches
 from .curve import Curve, Direction
 from .tip_table import TipTable
 from .tips import Array, Paraboloid, Tip, scipy
@@ -33,14 +33,14 @@ class Asked(NamedTuple):
         where, load = _points(z, force, self.is_si, self.length_unit, self.force_unit)
         told = ""
         if self.direction is None:
-            where, load, told = ordered(where, load)
+            where, load, told = order_branches(where, load)
         elif (where[-1] > where[0]) != (self.direction == "approach"):
             where, load = where[::-1].copy(), load[::-1].copy()
         _refuse_saturated(where, load)
         return Curve(where, load, self.direction, self.tip, self.compliance), [told] * bool(told)
 
 
-def asked(
+def read_request(
     radius: Quantity | None,
     tip: TipTable | None,
     spring_stiffness: Quantity | None,

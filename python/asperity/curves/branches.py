@@ -17,7 +17,7 @@ def noise_of(force: Array) -> float:
     return float((np.median(rough) / 0.6745 or rough.std()) / np.sqrt(6.0))
 
 
-def ordered(z: Array, force: Array) -> tuple[Array, Array, str]:
+def order_branches(z: Array, force: Array) -> tuple[Array, Array, str]:
     """Positions and forces with the approach in front of the withdrawal, and what speaks against this order."""
     if z.size < 2 * _FEWEST:
         return z, force, ""

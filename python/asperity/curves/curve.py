@@ -73,7 +73,7 @@ class Curve:
         # more than the greatest approach, of which these points have more than a half; below it is adhesion that is none
         self.floor = self.tip.least_work(self.modulus, 3.0 * float(np.ptp(approach))) / self.work
 
-    def cleared(self, values: Array) -> Array:
+    def clear_baseline(self, values: Array) -> Array:
         """Values of the points along the last axis, without what a baseline explains."""
         return np.asarray(values - (values @ self.orthogonal) @ self.orthogonal.T)
 
@@ -94,7 +94,7 @@ class Curve:
 
     def _refuse_noise(self) -> None:
         """Refuses a curve that is hardly more than its noise."""
-        if np.std(self.cleared(self.force)) < 1.5 * self.noise:
+        if np.std(self.clear_baseline(self.force)) < 1.5 * self.noise:
             self.refuse_empty()
 
     def _refuse_falling(self, far: NDArray[np.int64]) -> NoReturn:
@@ -116,7 +116,7 @@ class Curve:
 
     def refuse_empty(self) -> NoReturn:
         """Refuses a curve that is its baseline."""
-        rest = self.cleared(self.force)
+        rest = self.clear_baseline(self.force)
         raise ValueError(
             f"force departs by at most {np.abs(rest).max():.3g} from a straight line over z, and its noise is "
             f"{self.noise:.3g}: there is no contact in the data"

@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..common.optional import package
-from ..common.progress import counted
+from ..common.progress import show_progress
 from ..common.types import Lengths, Quantity
 from ..common.units import in_si, in_unit
 from ..common.warnings import InputWarning, warn
-from ..common.words import named
+from ..common.words import suggests
 from ..plot import figures
-from .asked import Asked, asked
+from .asked import Asked, read_request
 from .curve import Direction
 from .files.read import Reader, metres_and_newtons
-from .fit import CurveFit, fitted
+from .fit import CurveFit, fit_one
 from .pictures import number_map
 from .tip_table import TipTable
 from .tips import Array
@@ -142,7 +142,7 @@ class CurveMap:
         own = {**_NUMBERS, "contact_height": "m", "noise": "N"}[of] if self._is_si else unit
         lengths = self.lengths or cast(tuple[float, float], tuple(map(float, self.shape)))
         length = "m" if self._is_si and self.lengths else length_unit
-        units = figures.shown("length_unit", length if self.lengths else None, length_unit), (1.0, own)
+        units = figures.axis_unit("length_unit", length if self.lengths else None, length_unit), (1.0, own)
         return number_map(values, lengths, of.replace("_", " "), units, ax)
 
     def to_xarray(self) -> Any:
@@ -189,7 +189,7 @@ def _kind(text: str) -> str:
     return text.partition(": ")[2].partition(";")[0] or text
 
 
-@named
+@suggests
 def fit_curves(
     curves: Curves,
     *,
@@ -264,11 +264,11 @@ def fit_curves(
         stiffness = found.stiffness if spring_stiffness is None else spring_stiffness
         if tip is not None and not tip.is_si:
             raise ValueError(f"{curves} is in SI units, and the table is {tip!r}: make it with units")
-        keywords = asked(radius, tip, stiffness, poisson, direction, model, jumps, "m", "N", True)
+        keywords = read_request(radius, tip, stiffness, poisson, direction, model, jumps, "m", "N", True)
     else:
-        pairs, shape = _paired(curves, shape)
+        pairs, shape = _pair_curves(curves, shape)
         units = length_unit, force_unit
-        keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, *units, is_si)
+        keywords = read_request(radius, tip, spring_stiffness, poisson, direction, model, jumps, *units, is_si)
         if keywords.is_si:
             for name, unit in (("length_unit", length_unit), ("force_unit", force_unit)):
                 in_unit(name, unit)
@@ -276,10 +276,10 @@ def fit_curves(
         sides = np.broadcast_to(np.asarray(lengths, np.float64), 2)
     if int(np.prod(shape)) != len(pairs):
         raise ValueError(f"shape is {shape}, of {int(np.prod(shape))} places, and there are {len(pairs)} curves")
-    return _mapped(pairs, keywords, shape, None if sides is None else tuple(map(float, sides)), threads)
+    return _fit_map(pairs, keywords, shape, None if sides is None else tuple(map(float, sides)), threads)
 
 
-def _paired(curves: Any, shape: tuple[int, ...] | None) -> tuple[Sequence[Any], tuple[int, ...]]:
+def _pair_curves(curves: Any, shape: tuple[int, ...] | None) -> tuple[Sequence[Any], tuple[int, ...]]:
     """Pairs of positions and forces, and the shape of their map."""
     if isinstance(curves, np.ndarray) and curves.dtype != object:
         if curves.ndim < 3 or curves.shape[-2] != 2:
@@ -294,7 +294,7 @@ def _paired(curves: Any, shape: tuple[int, ...] | None) -> tuple[Sequence[Any], 
     return pairs, shape or (len(pairs),)
 
 
-def _mapped(
+def _fit_map(
     pairs: Sequence[Any], keywords: Asked, shape: tuple[int, ...], lengths: Any, threads: int | None
 ) -> CurveMap:
     """The fits of pairs."""
@@ -304,7 +304,7 @@ def _mapped(
             if isinstance(pair, ValueError):
                 raise pair
             z, force = pair
-            fit, told = fitted(z, force, keywords)
+            fit, told = fit_one(z, force, keywords)
         except (ValueError, TypeError) as refused:
             return None, str(refused)
         return fit, "; ".join(told)
@@ -314,7 +314,7 @@ def _mapped(
     noise, p_values = np.full(count, np.nan), {name: np.full(count, np.nan) for name in keywords.models}
     best, reason, warning = [""] * count, [""] * count, [""] * count
     with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
-        for k, (fit, told) in enumerate(counted(pool.map(one, pairs), count, " curves")):
+        for k, (fit, told) in enumerate(show_progress(pool.map(one, pairs), count, " curves")):
             if fit is None:
                 reason[k] = told
                 continue

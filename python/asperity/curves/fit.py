@@ -11,9 +11,9 @@ from .. import _asperity
 from ..common.types import Quantity
 from ..common.units import in_si
 from ..common.warnings import InputWarning, warn
-from ..common.words import named
+from ..common.words import suggests
 from ..plot import figures
-from .asked import Asked, asked
+from .asked import Asked, read_request
 from .curve import Direction
 from .likelihood import DOUBTFUL, LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
 from .pictures import force_curve
@@ -135,7 +135,7 @@ class CurveFit:
         ndarray of two matplotlib Axes
         """
         own = ("m", "N") if self._is_si else (None, None)
-        length, force = figures.shown("length_unit", own[0], length_unit), figures.shown("force_unit", own[1], force_unit)
+        length, force = figures.axis_unit("length_unit", own[0], length_unit), figures.axis_unit("force_unit", own[1], force_unit)
         return force_curve(self.z, self.force, self.fitted, self._turn, length, force, ax)
 
 
@@ -147,7 +147,7 @@ def _digits(factor: float, found: Estimate) -> list[str]:
     return [f"{end:.{min(max(digits, 4), 12)}g}" for end in (value, lower, upper)]
 
 
-@named
+@suggests
 def fit_curve(
     z: ArrayLike,
     force: ArrayLike,
@@ -232,8 +232,8 @@ def fit_curve(
     """
     radius, spring_stiffness, is_si = in_si(radius=radius, spring_stiffness=spring_stiffness)
     units = length_unit, force_unit
-    keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, *units, is_si)
-    found, told = fitted(z, force, keywords)
+    keywords = read_request(radius, tip, spring_stiffness, poisson, direction, model, jumps, *units, is_si)
+    found, told = fit_one(z, force, keywords)
     for message in told:
         warn(message, InputWarning)
     return found
@@ -242,18 +242,18 @@ def fit_curve(
 CurveFit.__module__ = "asperity"
 
 
-def fitted(z: ArrayLike, force: ArrayLike, asked: Asked) -> tuple[CurveFit, list[str]]:
+def fit_one(z: ArrayLike, force: ArrayLike, asked: Asked) -> tuple[CurveFit, list[str]]:
     """The fit of a curve, and what speaks against it."""
     curve, told = asked.curve(z, force)
     found = Likelihood(curve, search(curve, asked.models, asked.jumps))
-    fit, more = _told(found, asked.poisson, asked.is_si)
+    fit, more = _conclude(found, asked.poisson, asked.is_si)
     return fit, told + more
 
 
-def _told(found: Likelihood, poisson: float | None, is_si: bool) -> tuple[CurveFit, list[str]]:
+def _conclude(found: Likelihood, poisson: float | None, is_si: bool) -> tuple[CurveFit, list[str]]:
     """All numbers by their names, and what speaks against them, or the refusal of a curve that does not tell them."""
     curve, fits, best = found.curve, found.fits, found.given
-    line = float(np.sum(curve.cleared(curve.force) ** 2))
+    line = float(np.sum(curve.clear_baseline(curve.force) ** 2))
     if found.special.fdtrc(4, found.freedom, max(line - found.least, 0.0) / found.variance / 4.0) > 1e-4:
         curve.refuse_empty()
     modulus = found.modulus()

@@ -146,7 +146,7 @@ class Likelihood:
 
     def residuals(self, row: int) -> Array:
         """The residuals of a fit, without a baseline."""
-        return self.curve.cleared(self.curve.force - self.fits.load[row, : self.curve.z.size])
+        return self.curve.clear_baseline(self.curve.force - self.fits.load[row, : self.curve.z.size])
 
     def likeness(self, row: int) -> tuple[float, float]:
         """The correlation of neighbouring residuals of a fit, and its probability."""

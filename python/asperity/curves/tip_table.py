@@ -210,9 +210,9 @@ class TipTable:
         places = np.nan_to_num(places)
 
         def row(both: tuple[Way, Way], place: float, off: float) -> Array:
-            (before, behind), (_, drawn) = _parted(both[0], place), _parted(both[1], off)
+            (before, behind), (_, drawn) = _part(both[0], place), _part(both[1], off)
             pieces = ((before, place - self.low), (behind, self.high - place), (drawn, self.high - off))
-            tail, *others = (_sampled(*piece, span) for piece, span in pieces)
+            tail, *others = (_sample(*piece, span) for piece, span in pieces)
             return np.concatenate([tail[::-1], *others, [place, off]])
 
         return np.array([row(both, *pair) for both, pair in zip(ways, places)])
@@ -303,7 +303,7 @@ def _jump(approach: Array, load: Array, jumps: Array) -> float:
     return 0.5 * float(approach[at] + approach[at + 1]) if falls[at] > max(-0.1 * load.min(), 0.0) else np.nan
 
 
-def _parted(way: Way, place: float) -> tuple[Pair, Pair]:
+def _part(way: Way, place: float) -> tuple[Pair, Pair]:
     """Distances and forces before a place and behind it, and there, unless the force jumps."""
     approach, load, jumps = way
     at = int(np.searchsorted(approach[:-1], place))
@@ -314,7 +314,7 @@ def _parted(way: Way, place: float) -> tuple[Pair, Pair]:
     return (place - approach[before][::-1], load[before][::-1]), (approach[behind] - place, load[behind])
 
 
-def _sampled(distance: Array, load: Array, span: float) -> Array:
+def _sample(distance: Array, load: Array, span: float) -> Array:
     """Forces at distances from a jump that are dense near it."""
     roots = np.sqrt(np.maximum(distance, 0.0) / span)
     rising = np.append(True, np.diff(np.maximum.accumulate(roots)) > 0.0)

@@ -72,7 +72,7 @@ class Tip(Protocol):
         """Refuses what a fit found beyond all equilibria, or tells what speaks against it."""
 
 
-def evened(knots: Array) -> Array:
+def even_steps(knots: Array) -> Array:
     """Knots of a curve that lines between them miss as much to one side as to the other: a bias is no noise."""
     found = knots.copy()
     found[1:-1] -= np.diff(knots, 2, axis=0) / 12.0
@@ -88,7 +88,7 @@ def _maugis(tabor: float) -> Array:
     contact = exact.MaugisDugdale(1.0, 1.0, 1.0, 1.0 / tabor).at_contact_radius(_RADII)
     c = contact.adhesion_radius[0] * np.linspace(0.0, 1.0, _APART - 1, endpoint=False)
     apart = np.stack([0.5 * c**2 - 4.0 / np.pi * tabor * c - 1.0 / tabor, -np.pi * tabor * c**2], 1)
-    return np.concatenate([[[-_FAR, 0.0]], apart, evened(np.stack([contact.approach, contact.load], 1))])
+    return np.concatenate([[[-_FAR, 0.0]], apart, even_steps(np.stack([contact.approach, contact.load], 1))])
 
 
 def _limits() -> dict[str, Array]:
@@ -98,7 +98,7 @@ def _limits() -> dict[str, Array]:
     apart = np.stack([[-_FAR, -1.0, 0.0], np.zeros(3)], 1)
     loads = {"Hertz": (hertz, 0.0), "DMT": (hertz, 2.0 * np.pi), "JKR": (jkr, 0.0)}
     return {
-        name: np.concatenate([apart, evened(np.stack([contact.approach, contact.load - pull], 1))])
+        name: np.concatenate([apart, even_steps(np.stack([contact.approach, contact.load - pull], 1))])
         for name, (contact, pull) in loads.items()
     }
 

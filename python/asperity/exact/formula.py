@@ -50,13 +50,13 @@ class Formula:
         return type(self), self._values(), {"_texts": self._texts, "_is_si": self._is_si}
 
     def __repr__(self) -> str:
-        return f"{self._called()}\n  {self.about}"
+        return f"{self._call_text()}\n  {self.about}"
 
     @classmethod
     def _names(cls) -> list[str]:
         return [field.name for field in fields(cls) if field.compare]  # type: ignore[arg-type]
 
-    def _called(self) -> str:
+    def _call_text(self) -> str:
         """The call that makes it, with the numbers as they were typed."""
         shown = {name: f"{getattr(self, name):.8g}" for name in self._names()}
         shown.update({name: repr(text) for name, text in self._texts.items()})
@@ -70,5 +70,5 @@ class Formula:
         found = np.array([_asperity.quantity(name, str(text)) for text in typed.flat]).reshape(typed.shape)
         if not self._is_si:
             first = typed.flat[0]
-            raise ValueError(f"{name} is {first}, with a unit, but {self._called()} has none: give both units, or neither")
+            raise ValueError(f"{name} is {first}, with a unit, but {self._call_text()} has none: give both units, or neither")
         return found

@@ -32,7 +32,7 @@ class _States:
         values = {name: getattr(self, name) for name in self._shown}
         shape = np.shape(values[self._shown[0]])
         told = f"{shape}" if shape else f"({', '.join(f'{name}={value:.6g}' for name, value in values.items())})"
-        return f"{type(self).__name__}{told} of {self._solution._called()}"
+        return f"{type(self).__name__}{told} of {self._solution._call_text()}"
 
     def _field(self, name: str, places: ArrayLike) -> Any:
         return getattr(self._state, name)(self._solution._read("distance", places))

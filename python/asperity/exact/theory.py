@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from .. import _asperity, surface
 from ..common.types import AxisOrder, Lengths, Quantity
 from ..common.units import in_si
-from ..maps.heights import Heights, taken
+from ..maps.heights import Heights, convert_heights
 from ..maps.topography import Topography
 from ..surface import PowerSpectralDensity
 from .formula import Formula
@@ -42,7 +42,7 @@ class _Theory(Formula):
             Contact modulus E*, a pressure.
         """
         sides, number, is_si = in_si(lengths=lengths, modulus=modulus)
-        theory = cls._by(taken(heights, sides, axes, is_si), number)
+        theory = cls._by(convert_heights(heights, sides, axes, is_si), number)
         return theory._in_si({"modulus": str(modulus)}) if is_si else theory
 
     @classmethod

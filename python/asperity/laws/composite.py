@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _asperity
 from ..common.types import AxisOrder, Quantity
-from ..maps.arrays import array_of
+from ..maps.arrays import read_array
 from .law import ParameterLaw
 
 
@@ -82,7 +82,7 @@ class Varying(ParameterLaw):
     knows_axes: bool
 
     def __new__(cls, law: Any, work_of_adhesion: ArrayLike, axes: AxisOrder | None = None) -> Varying:
-        works, is_line = array_of(work_of_adhesion, "works of adhesion", axes)
+        works, is_line = read_array(work_of_adhesion, "works of adhesion", axes)
         own = cls._from(_asperity.varied(law, works), (law, (works[:, 0] if is_line else works).copy()))
         own.knows_axes = axes is not None or hasattr(work_of_adhesion, "dims") or is_line
         return own

@@ -6,7 +6,7 @@ from typing import Any, ClassVar, TypeVar
 
 from .. import _asperity
 from ..common.types import Quantity
-from ..common.words import named
+from ..common.words import suggests
 from .law import ParameterLaw
 
 __all__ = ["Exponential", "JKR", "LennardJones", "MaugisDugdale", "Morse", "PowerLaw", "VanDerWaals"]
@@ -51,7 +51,7 @@ class Exponential(Formula):
     __match_args__ = ("work_of_adhesion", "range")
     _name = "exponential"
 
-    @named
+    @suggests
     def __new__(cls, work_of_adhesion: Quantity, range: Quantity) -> Exponential:
         return cls._with({"work_of_adhesion": work_of_adhesion, "range": range})
 
@@ -92,7 +92,7 @@ class JKR(Formula):
     __match_args__ = ("work_of_adhesion",)
     _name = "jkr"
 
-    @named
+    @suggests
     def __new__(cls, work_of_adhesion: Quantity) -> JKR:
         return cls._with({"work_of_adhesion": work_of_adhesion})
 
@@ -123,7 +123,7 @@ class MaugisDugdale(Formula):
     __match_args__ = ("work_of_adhesion", "range")
     _name = "maugis-dugdale"
 
-    @named
+    @suggests
     def __new__(cls, work_of_adhesion: Quantity, range: Quantity) -> MaugisDugdale:
         return cls._with({"work_of_adhesion": work_of_adhesion, "range": range})
 
@@ -165,7 +165,7 @@ class LennardJones(Formula):
     __match_args__ = ("work_of_adhesion", "range", "cut")
     _name = "lennard-jones"
 
-    @named
+    @suggests
     def __new__(cls, work_of_adhesion: Quantity, range: Quantity, cut: bool = False) -> LennardJones:
         return cls._with({"work_of_adhesion": work_of_adhesion, "range": range}, cut)
 
@@ -208,7 +208,7 @@ class Morse(Formula):
     __match_args__ = ("work_of_adhesion", "range")
     _name = "morse"
 
-    @named
+    @suggests
     def __new__(cls, work_of_adhesion: Quantity, range: Quantity) -> Morse:
         return cls._with({"work_of_adhesion": work_of_adhesion, "range": range})
 
@@ -246,7 +246,7 @@ class PowerLaw(Formula):
     __match_args__ = ("work_of_adhesion", "range", "exponent")
     _name = "power"
 
-    @named
+    @suggests
     def __new__(cls, work_of_adhesion: Quantity, range: Quantity, exponent: float) -> PowerLaw:
         return cls._with({"work_of_adhesion": work_of_adhesion, "range": range, "exponent": exponent})
 
@@ -288,7 +288,7 @@ class VanDerWaals(Formula):
     __match_args__ = ("hamaker", "range")
     _name = "van-der-waals"
 
-    @named
+    @suggests
     def __new__(cls, hamaker: Quantity, range: Quantity) -> VanDerWaals:
         return cls._with({"hamaker": hamaker, "range": range})
 

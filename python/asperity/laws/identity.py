@@ -14,7 +14,7 @@ from .tabulated import Tabulated
 
 def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
     """Gaps and tractions and the works of adhesion of a law, and whether it may differ from others of its name."""
-    law, works = unwrapped(law)
+    law, works = unwrap(law)
     table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, Tabulated) else None
     own = law is not None and not isinstance(law, Law)
     if works is None:
@@ -23,7 +23,7 @@ def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | 
     return table, np.atleast_2d(works), own or getattr(law, "work_of_adhesion", None) != np.max(works)
 
 
-def unwrapped(law: Any) -> tuple[Any, Any]:
+def unwrap(law: Any) -> tuple[Any, Any]:
     """The law inside a law that ends or varies, and its works of adhesion."""
     works = None
     while isinstance(law, (CutOff, Varying)):

@@ -12,20 +12,20 @@ from numpy.typing import NDArray
 from ..common.types import AxisOrder, Lengths
 
 
-def field_of(values: Any, name: str, axes: AxisOrder | None = None) -> NDArray[np.float64]:
+def read_field(values: Any, name: str, axes: AxisOrder | None = None) -> NDArray[np.float64]:
     """A field as the compiled core takes it: two-dimensional, float64; dimensions with names are known without axes."""
-    return array_of(values, name, None if is_data_array(values) else axes)[0]
+    return read_array(values, name, None if is_data_array(values) else axes)[0]
 
 
-def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) -> tuple[NDArray[np.float64], bool]:
+def read_array(values: Any, name: str = "heights", axes: AxisOrder | None = None) -> tuple[NDArray[np.float64], bool]:
     """Values as a matrix of float64 with x along its first axis, and whether they are one line.
 
     Masked points become NaN, and coordinates rise.
     """
-    values = labelled(values, axes, name)
-    order = order_of(values, axes)
+    values = label_axes(values, axes, name)
+    order = axis_order(values, axes)
     if is_data_array(values):
-        values = np.ma.masked_invalid(values.values[tuple(map(_rising, map(values.coords.get, values.dims)))])
+        values = np.ma.masked_invalid(values.values[tuple(map(_ascending, map(values.coords.get, values.dims)))])
     masked = isinstance(values, np.ma.MaskedArray)
     try:
         # pandas has numbers with a sign for missing ones
@@ -52,7 +52,7 @@ def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) 
     return (array.T if order == "yx" else array), False
 
 
-def order_of(values: Any, axes: AxisOrder | None) -> AxisOrder:
+def axis_order(values: Any, axes: AxisOrder | None) -> AxisOrder:
     """The order of the axes of an array: by the names of its dimensions, or as it is given."""
     if axes not in (None, "xy", "yx"):
         raise ValueError(f"axes is {axes!r}: it must be 'xy', x along the first axis, or 'yx', as of an image")
@@ -65,13 +65,13 @@ def order_of(values: Any, axes: AxisOrder | None) -> AxisOrder:
     return named
 
 
-def _rising(coordinate: Any) -> slice:
+def _ascending(coordinate: Any) -> slice:
     """The part of an axis that is all of it, with its coordinate rising."""
     falls = coordinate is not None and coordinate.values.size > 1 and coordinate.values[-1] < coordinate.values[0]
     return slice(None, None, -1 if falls else None)
 
 
-def labelled(values: Any, axes: AxisOrder | None, name: str = "heights") -> Any:
+def label_axes(values: Any, axes: AxisOrder | None, name: str = "heights") -> Any:
     """A pandas.DataFrame with coordinates as a DataArray; all else as it is."""
     if hasattr(values, "data_vars"):
         raise TypeError(f"{name} are an xarray.Dataset: give one of its variables, {', '.join(values.data_vars)}")
@@ -122,6 +122,6 @@ def side_lengths(lengths: Lengths, shape: tuple[int, ...]) -> tuple[float, float
     return (pair[0], pair[1])
 
 
-def mirrored(field: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+def mirror_field(field: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
     """A field of the original of a mirrored map, continued by its mirror images to a shape."""
     return np.pad(field, [(0, nodes - own) for nodes, own in zip(shape, field.shape)], mode="symmetric")

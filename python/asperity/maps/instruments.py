@@ -51,7 +51,7 @@ def read(path: str, channel: int | str | None, refused: ValueError) -> Topograph
                 why = reason(raised)
                 continue
             if channels:
-                return _map_of(_chosen(channels, channel, path), path, reader.format() in _ARRAYS)
+                return _read_map(_choose(channels, channel, path), path, reader.format() in _ARRAYS)
             why = "it finds no channel"
     raise ValueError(f"{refused}; SurfaceTopography does not read it either: {why}")
 
@@ -74,7 +74,7 @@ def _claims(reader: Any, path: str, start: bytes, match: Any) -> bool:
     return bool(reader.can_read(start) != match.NO)
 
 
-def _chosen(channels: Any, asked: int | str | None, path: str) -> Any:
+def _choose(channels: Any, asked: int | str | None, path: str) -> Any:
     """The channel of heights of a number or name, or the only one."""
     # heights in another unit than their sides are none: such a channel has two
     heights = [channel for channel in channels if channel.is_height_channel and not isinstance(channel.unit, tuple)]
@@ -94,7 +94,7 @@ def _chosen(channels: Any, asked: int | str | None, path: str) -> Any:
     )
 
 
-def _map_of(channel: Any, path: str, is_array: bool) -> Topography:
+def _read_map(channel: Any, path: str, is_array: bool) -> Topography:
     """The map of a channel, in metres if its unit is known."""
     sizes = channel.nb_grid_pts if channel.physical_sizes is None else None
     try:

@@ -7,7 +7,7 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from ..common.types import AxisOrder, HeightMap
-from .arrays import array_of, order_of, side_lengths
+from .arrays import axis_order, read_array, side_lengths
 from .topography import Topography
 
 #: The share of a spacing by which coordinates may differ from equidistant ones.
@@ -32,7 +32,7 @@ def from_topography(topography: HeightMap) -> Topography:
         raise TypeError(f"topography is of type {name}: it must have heights() and physical_sizes")
     if not getattr(topography, "is_uniform", True):
         raise ValueError("topography is not on a uniform grid: interpolate it first, for example by its to_uniform()")
-    heights, is_line = array_of(topography.heights())
+    heights, is_line = read_array(topography.heights())
     sizes = topography.physical_sizes
     lengths = None if sizes is None else side_lengths(sizes[0] if is_line else tuple(sizes), heights.shape)
     periodic = getattr(topography, "is_periodic", None)
@@ -45,10 +45,10 @@ def is_topography(values: Any) -> TypeGuard[HeightMap]:
 
 def from_data_array(data: Any, axes: AxisOrder | None) -> Topography:
     """The heights of an xarray.DataArray, with the side lengths of its coordinates."""
-    heights, is_line = array_of(data, axes=axes)
+    heights, is_line = read_array(data, axes=axes)
     units = {data.attrs.get("units")}
     lengths = []
-    dims = data.dims[::-1] if order_of(data, axes) == "yx" else data.dims
+    dims = data.dims[::-1] if axis_order(data, axes) == "yx" else data.dims
     lacking = [dim for dim in dims if dim not in data.coords]
     if 0 < len(lacking) < len(dims):
         raise ValueError(f"heights have coordinates, but none along {lacking[0]}: give both, or drop_vars the others")

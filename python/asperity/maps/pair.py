@@ -8,18 +8,18 @@ from typing import overload
 from .. import _asperity
 from ..common.types import AxisOrder, Boundary, Quantity
 from ..common.units import in_si, number
-from ..common.words import named
-from .heights import Heights, knows_axes, taken
+from ..common.words import suggests
+from .heights import Heights, convert_heights, knows_axes
 from .topography import Topography
 
 
-def along_both(shift: list[float] | None) -> tuple[float, float]:
+def shift_pair(shift: list[float] | None) -> tuple[float, float]:
     """A shift along both axes."""
     both = shift or [0.0]
     return (both[0], both[1] if len(both) == 2 else 0.0)
 
 
-def between(
+def combine(
     first: Topography,
     against: Heights,
     shift: tuple[float, float],
@@ -30,7 +30,7 @@ def between(
     si: bool,
 ) -> tuple[Topography, str]:
     """The map between two surfaces that face each other, and the name of the second one in reports."""
-    other = taken(against, None, None if knows_axes(against) else axes, si)
+    other = convert_heights(against, None, None if knows_axes(against) else axes, si)
     heights = _asperity.between(first, other, shift, boundary, absent_missing)
     periodic = False if other.periodic is False else first.periodic
     return replace(first, heights=heights, periodic=periodic), other.source or "array"
@@ -44,7 +44,7 @@ def contact_modulus(
 def contact_modulus(
     young: str, poisson: float, other_young: str | None = None, other_poisson: float | None = None
 ) -> str: ...
-@named
+@suggests
 def contact_modulus(
     young: Quantity,
     poisson: float,

@@ -11,11 +11,11 @@ import numpy as np
 from .. import _asperity
 from ..common.types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, ScanAxis, Trend
 from ..common.units import in_si, number, plain
-from ..common.warnings import warn_of_input
-from ..common.words import named
+from ..common.warnings import warn_input
+from ..common.words import suggests
 from .arrays import side_lengths
 from .files import read
-from .heights import Heights, found
+from .heights import Heights, read_heights
 from .topography import Topography
 
 #: The threshold of scars, that of Gwyddion.
@@ -23,7 +23,7 @@ _SCARS = 0.667
 _SPIKES = 10.0
 
 
-@named
+@suggests
 def prepare(
     heights: Heights,
     lengths: Lengths | None = None,
@@ -130,7 +130,7 @@ def prepare(
     """
     if masked and not isinstance(heights, str | os.PathLike):
         raise TypeError("masked is of the mask of a .gwy file: give its path, or an array of NaN where points are missing")
-    given = read(heights, masked=True) if masked else found(heights, axes)  # type: ignore[arg-type]
+    given = read(heights, masked=True) if masked else read_heights(heights, axes)  # type: ignore[arg-type]
     keys = {
         "missing": None if missing is None else np.ravel(missing),
         "scale": scale,
@@ -155,7 +155,7 @@ def prepare(
     cut_off = None if cut_off_wavelength is None else number("cut_off_wavelength", cut_off_wavelength)
     made, log, warnings = _asperity.prepare(given, both, cut_off, is_si, plain(keys))
     for warning in warnings:
-        warn_of_input(warning)
+        warn_input(warning)
     periodic = True if mirror or window else given.periodic
     is_line = given._is_line and made["heights"].shape[1] == 1
     return replace(given, **made, periodic=periodic, log=(*given.log, *log), _is_line=is_line)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _asperity
 from ..plot import figures
-from .arrays import array_of, side_lengths
+from .arrays import read_array, side_lengths
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,7 +64,7 @@ class Topography:
     _is_line: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
-        heights, is_line = array_of(self.heights)
+        heights, is_line = read_array(self.heights)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "_is_line", self._is_line or is_line)
         if self.lengths is not None:
@@ -143,14 +143,14 @@ def in_metres(topography: Topography) -> Topography:
     return replace(topography, **_asperity.in_metres(topography))
 
 
-def sides(topography: Topography) -> tuple[float, float]:
+def require_lengths(topography: Topography) -> tuple[float, float]:
     """The side lengths of a map that needs them."""
     if topography.lengths is None:
         raise ValueError("side lengths are unknown: give lengths=(Lx, Ly), in the unit of the heights")
     return topography.lengths
 
 
-def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
+def refine(topography: Topography, heights: NDArray[np.float64]) -> Topography:
     """The map on a finer grid."""
     if topography.original is None:
         return replace(topography, heights=heights)

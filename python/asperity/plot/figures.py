@@ -28,7 +28,7 @@ def _axes(**options: Any) -> Any:
     return package("matplotlib.pyplot", "plots need matplotlib: pip install 'asperity[plot]'").subplots(**options)[1]
 
 
-def shown(name: str, own: str | None, wanted: str | None) -> Unit:
+def axis_unit(name: str, own: str | None, wanted: str | None) -> Unit:
     """The unit of an axis: the one that is wanted, into which numbers of a known unit are converted, or their own."""
     if own is None or wanted in (None, own):
         return 1.0, wanted or own

@@ -23,8 +23,8 @@ from ..bodies.body import Symbol
 from ..common.units import in_si, number
 from ..common.words import PLURALS
 from ..laws.formulas import JKR
-from ..laws.identity import unwrapped
-from ..maps.arrays import field_of, mirrored
+from ..laws.identity import unwrap
+from ..maps.arrays import mirror_field, read_field
 from ..plot import figures
 
 if TYPE_CHECKING:
@@ -154,9 +154,9 @@ class Viscoelastic(Rows[Moment]):
         lowered = heights - memory
         # by how much sooner bodies touch that move towards each other
         sooner = float(np.nanmax(lowered) - np.nanmax(heights))
-        solution = contact._relaxed(lowered, share, self._shifted(load, sooner), self._start, self._observe)
+        solution = contact._relaxed(lowered, share, self._shift(load, sooner), self._start, self._observe)
         gap = np.asarray(solution.whole_gap, np.float64).reshape(heights.shape)
-        pressure, displacement = mirrored(field_of(solution.pressure, "pressures"), heights.shape), gap + heights
+        pressure, displacement = mirror_field(read_field(solution.pressure, "pressures"), heights.shape), gap + heights
         approach, way = solution.approach, 0.0
         if approach is None:
             # a periodic body has a displacement but for its mean, on which pressures of no mean do no work
@@ -189,7 +189,7 @@ class Viscoelastic(Rows[Moment]):
         self._ended = solution.status in ("detached", "stopped")
         return self._moment
 
-    def _shifted(self, load: float, by: float) -> dict[str, float]:
+    def _shift(self, load: float, by: float) -> dict[str, float]:
         """The load of the lowered heights, with an approach that counts from another first touch."""
         if self._load == "approach":
             load += by
@@ -252,7 +252,7 @@ def _path(keys: dict[str, Any], is_si: bool) -> tuple[str, list[tuple[float, flo
     if len(given) != 1:
         known = ", ".join(LOADS)
         raise ValueError(f"loads are {' and '.join(given) or 'missing'}: give one list of {known}, a load at each of the times")
-    times, loads = (_listed(name, keys.get(name)) for name in ("times", given[0]))
+    times, loads = (_read_list(name, keys.get(name)) for name in ("times", given[0]))
     key = LOADS[given[0]]
     loads, have_units = in_si(**{given[0]: [load if isinstance(load, str) else number(key, load) for load in loads]})
     if have_units != is_si and any(loads):
@@ -269,7 +269,7 @@ def _path(keys: dict[str, Any], is_si: bool) -> tuple[str, list[tuple[float, flo
     return key, list(zip(moments, loads))
 
 
-def _listed(name: str, values: Any) -> list[Any]:
+def _read_list(name: str, values: Any) -> list[Any]:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise TypeError(f"{name} is {values!r}: it must be a list of numbers")
     return list(values)
@@ -277,7 +277,7 @@ def _listed(name: str, values: Any) -> list[Any]:
 
 def _refuse(contact: Posed) -> None:
     """Refuses what does not relax as the half-space does."""
-    law, _ = unwrapped(contact.own_law)
+    law, _ = unwrap(contact.own_law)
     if isinstance(law, JKR) or contact.law == "jkr":
         raise ValueError(
             "law is jkr, whose range is that of the grid: the speed of an edge depends on the range: give a law that has one, "

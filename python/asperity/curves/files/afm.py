@@ -58,7 +58,7 @@ def curves(path: Any, given: dict[str, float | None]) -> Any:
         raise ValueError(f"{path}: is not read by afmformats: {reason(raised)}") from None
 
 
-def chosen(path: Any, found: Any, number: int) -> Any:
+def choose(path: Any, found: Any, number: int) -> Any:
     """The curve of a number."""
     if not 0 <= number < len(found):
         raise ValueError(f"{path}: is not read by afmformats: it finds {len(found)} curves, and none of number {number}")

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import _asperity
-from ...common.progress import counted
+from ...common.progress import show_progress
 from ...common.types import Quantity
 from ...common.warnings import InputWarning
-from ...common.words import named
-from ..branches import ordered
+from ...common.words import suggests
+from ..branches import order_branches
 from ..tips import Array
 from . import afm, texts
 from .columns import Column, factor, moving
@@ -38,7 +38,7 @@ class ForceCurve(NamedTuple):
 ForceCurve.__module__ = "asperity"
 
 
-@named
+@suggests
 def read_curve(
     path: str | os.PathLike[str],
     *,
@@ -103,8 +103,8 @@ def read_curve(
         content = file.read()
     reader = Reader(path, z, force, length_unit, force_unit, metres_and_newtons(spring_stiffness, sensitivity))
     if afm.knows(content):
-        return reader.instrument(afm.chosen(path, afm.curves(path, reader.given), number))
-    return reader.joined(*texts.read(path, content))
+        return reader.instrument(afm.choose(path, afm.curves(path, reader.given), number))
+    return reader.join(*texts.read(path, content))
 
 
 def metres_and_newtons(spring_stiffness: Quantity | None, sensitivity: Quantity | None) -> dict[str, float | None]:
@@ -147,7 +147,7 @@ class Reader(NamedTuple):
     def instrument(self, curve: Any) -> ForceCurve:
         """A curve of afmformats."""
         chosen = self._replace(z="height (measured)" if self.z is None else self.z)
-        return chosen.joined(*afm.columns(self.path, curve))
+        return chosen.join(*afm.columns(self.path, curve))
 
     def map(self) -> CurveFile:
         """All curves of a file of afmformats, over the grid on which they were taken."""
@@ -159,7 +159,7 @@ class Reader(NamedTuple):
         with warnings.catch_warnings():
             # the reader of each curve tells of pauses
             warnings.simplefilter("ignore", InputWarning)
-            for curve in counted(found, len(found), " curves"):
+            for curve in show_progress(found, len(found), " curves"):
                 try:
                     pairs.append(self.instrument(curve))
                 except ValueError as refused:
@@ -176,7 +176,7 @@ class Reader(NamedTuple):
         sides = [float(first.get(f"grid size {axis}", np.nan)) for axis in "xy"]
         return CurveFile(placed, (grid[0], grid[1]), (sides[0], sides[1]) if np.isfinite(sides).all() else None, stiffness)
 
-    def joined(self, columns: list[Column], parts: NDArray[np.str_] | Array | None) -> ForceCurve:
+    def join(self, columns: list[Column], parts: NDArray[np.str_] | Array | None) -> ForceCurve:
         """The curve of columns, with approach and withdrawal behind each other."""
         legs = [[column for column in columns if column.leg == leg] for leg in ("approach", "withdrawal")]
         if self.z is None and self.force is None and all(len(leg) > 1 for leg in legs):
@@ -191,7 +191,7 @@ class Reader(NamedTuple):
         if not load.size:
             raise ValueError(f"{self.path}: has no point with a finite position and force")
         falls = where[load >= 0.5 * (load.max() + np.median(load))].mean() < where.mean()
-        return ForceCurve(*ordered(-where if falls else where, load)[:2])
+        return ForceCurve(*order_branches(-where if falls else where, load)[:2])
 
     def _pair(self, columns: list[Column]) -> Array:
         """Positions and forces of columns, in SI units."""
@@ -227,7 +227,7 @@ class Reader(NamedTuple):
 
     def _column(self, columns: list[Column], key: str, given: str, asked: int | str | None, unit: str | None) -> Array:
         """A column in SI units."""
-        found = self._chosen(columns, key, given, asked)
+        found = self._choose(columns, key, given, asked)
         name, own = found.name, found.unit
         kind = "length" if given == "z" else "force"
         scale = factor(key, own or unit or "")
@@ -240,7 +240,7 @@ class Reader(NamedTuple):
             raise ValueError(f"{self.path}: column {name!r} has no unit of {kind}: give {kind}_unit, or another {given}")
         return scale * found.values
 
-    def _chosen(self, columns: list[Column], key: str, given: str, asked: int | str | None) -> Column:
+    def _choose(self, columns: list[Column], key: str, given: str, asked: int | str | None) -> Column:
         """The column of a number, name or heading, or the only one of its unit."""
         if isinstance(asked, int) and -len(columns) <= asked < len(columns):
             return columns[asked]

@@ -23,7 +23,7 @@ _PART = re.compile(r"^#\s*(?:segment|segmentname|part)\s*:?\s+(\S.*)$", re.IGNOR
 
 def read(path: Any, content: bytes) -> tuple[list[Column], NDArray[np.str_] | Array | None]:
     """The columns of a text, and the part of the curve to which each line belongs, if it tells."""
-    lines = _decoded(content)
+    lines = _decode(content)
     first, separator = next(
         ((at, mark) for at, line in enumerate(lines) for mark in "\t;, " if _begins(lines, at, mark)), (0, "")
     )
@@ -43,7 +43,7 @@ def read(path: Any, content: bytes) -> tuple[list[Column], NDArray[np.str_] | Ar
             raise ValueError(f"{path}: line {at + 1} is no row of {count} numbers: {line.strip()[:40]!r}")
         rows.append(cells)
         parts.append(part)
-    names, units, headings = _named(lines[:first], separator, count)
+    names, units, headings = _name_columns(lines[:first], separator, count)
     columns, words = [], None
     for name, unit, heading, column in zip(names, units, headings, zip(*rows)):
         values = [np.nan if not cell else _number(cell, separator) for cell in column]
@@ -60,7 +60,7 @@ def read(path: Any, content: bytes) -> tuple[list[Column], NDArray[np.str_] | Ar
     return columns, words if words is not None else numbered
 
 
-def _decoded(content: bytes) -> list[str]:
+def _decode(content: bytes) -> list[str]:
     encoding = "utf-16" if content.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig"
     try:
         return content.decode(encoding).splitlines()
@@ -69,7 +69,7 @@ def _decoded(content: bytes) -> list[str]:
         return content.decode("cp1252", errors="replace").splitlines()
 
 
-def _named(lines: list[str], separator: str, count: int) -> tuple[list[str], list[str], list[str]]:
+def _name_columns(lines: list[str], separator: str, count: int) -> tuple[list[str], list[str], list[str]]:
     """Names, units and headings of the columns, by the lines above."""
     known = [cells for line in lines for cells in _headings(line, separator) if len(cells) == count]
     headings = known[-1] if known else [""] * count
