@@ -17,7 +17,7 @@ from ..common.units import in_si, in_unit
 from ..common.warnings import InputWarning, warn
 from ..common.words import suggests
 from ..plot import figures
-from .asked import Asked, read_request
+from .request import Request, read_request
 from .curve import Direction
 from .files.read import Reader, metres_and_newtons
 from .fit import CurveFit, fit_one
@@ -295,7 +295,7 @@ def _pair_curves(curves: Any, shape: tuple[int, ...] | None) -> tuple[Sequence[A
 
 
 def _fit_map(
-    pairs: Sequence[Any], keywords: Asked, shape: tuple[int, ...], lengths: Any, threads: int | None
+    pairs: Sequence[Any], keywords: Request, shape: tuple[int, ...], lengths: Any, threads: int | None
 ) -> CurveMap:
     """The fits of pairs."""
 

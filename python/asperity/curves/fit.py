@@ -13,7 +13,7 @@ from ..common.units import in_si
 from ..common.warnings import InputWarning, warn
 from ..common.words import suggests
 from ..plot import figures
-from .asked import Asked, read_request
+from .request import Request, read_request
 from .curve import Direction
 from .likelihood import DOUBTFUL, LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
 from .pictures import force_curve
@@ -242,11 +242,11 @@ def fit_curve(
 CurveFit.__module__ = "asperity"
 
 
-def fit_one(z: ArrayLike, force: ArrayLike, asked: Asked) -> tuple[CurveFit, list[str]]:
+def fit_one(z: ArrayLike, force: ArrayLike, request: Request) -> tuple[CurveFit, list[str]]:
     """The fit of a curve, and what speaks against it."""
-    curve, told = asked.curve(z, force)
-    found = Likelihood(curve, search(curve, asked.models, asked.jumps))
-    fit, more = _conclude(found, asked.poisson, asked.is_si)
+    curve, told = request.curve(z, force)
+    found = Likelihood(curve, search(curve, request.models, request.jumps))
+    fit, more = _conclude(found, request.poisson, request.is_si)
     return fit, told + more
 
 

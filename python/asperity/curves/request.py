@@ -15,7 +15,7 @@ from .tip_table import TipTable
 from .tips import Array, Paraboloid, Tip, scipy
 
 
-class Asked(NamedTuple):
+class Request(NamedTuple):
     """A tip and its spring, the models, and whether numbers are in SI units."""
 
     tip: Tip
@@ -51,7 +51,7 @@ def read_request(
     length_unit: str | None,
     force_unit: str | None,
     is_si: bool,
-) -> Asked:
+) -> Request:
     """Keywords of a fit, checked."""
     if (radius is None) == (tip is None):
         raise TypeError(f"radius is {radius!r}, and tip is {tip!r}: give one of them")
@@ -67,7 +67,7 @@ def read_request(
     scipy("special")
     shape = cast(Tip, tip or Paraboloid(_positive("radius", radius)))
     poisson = None if poisson is None else number("poisson", poisson)
-    return Asked(shape, compliance, direction, _models(shape, model), jumps, poisson, is_si, length_unit, force_unit)
+    return Request(shape, compliance, direction, _models(shape, model), jumps, poisson, is_si, length_unit, force_unit)
 
 
 def _models(tip: Tip, model: str | None) -> list[str]:
