@@ -1,4 +1,4 @@
-//! Exact solutions, to compare solves with.
+//! Exact solutions, and theories of rough surfaces, to compare solves with.
 //!
 //! | contact | solution | adhesion |
 //! |---|---|---|
@@ -8,6 +8,7 @@
 //! | a paraboloid of two curvatures, a cone, a flat punch | [`EllipticHertz`], [`Cone`], [`FlatPunch`] | none |
 //! | a wave on a line | [`WavyLine`], [`AdhesiveWavyLine`] | none; of no range |
 //! | a two-dimensional wave, full contact | [`closing_pressure_2d`] | none |
+//! | a rough surface, by a theory | [`Persson`], [`GreenwoodWilliamson`] | none |
 //!
 //! A solution gives states, [`Contact`], [`PeriodicContact`], [`WaveContact`], and a state its fields, centred like
 //! [`Surface`](crate::Surface) on the origin of the grid. All in `f64`, in any consistent units.
@@ -33,12 +34,14 @@
 mod cone;
 mod contact;
 mod ellipse;
+mod greenwood_williamson;
 mod hertz;
 mod jkr;
 mod johnson;
 mod maugis_dugdale;
 mod numerics;
 mod periodic;
+mod persson;
 mod punch;
 mod sphere;
 mod wave;
@@ -48,11 +51,13 @@ mod westergaard;
 pub use cone::Cone;
 pub use contact::Contact;
 pub use ellipse::{EllipticContact, EllipticHertz};
+pub use greenwood_williamson::GreenwoodWilliamson;
 pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use johnson::AdhesiveWavyLine;
 pub use maugis_dugdale::MaugisDugdale;
 pub use periodic::{C2, M1, Periodic, PeriodicContact};
+pub use persson::Persson;
 pub use punch::FlatPunch;
 pub use sphere::Sphere;
 pub use wave::WaveContact;

@@ -1,7 +1,6 @@
-//! Exact solutions and theories at many loads at once; what users see, with its words, is in `asperity/exact.py`.
+//! Exact solutions and theories at many loads at once; what users see, with its words, is in the folder `asperity/exact`.
 
 use asperity::exact::{self, Sphere};
-use asperity_scene::theories;
 use numpy::ndarray::{ArrayD, IxDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -136,7 +135,7 @@ type Spectrum<'py> = (Numbers<'py>, Numbers<'py>, Numbers<'py>, f64);
 
 /// Persson's theory.
 #[pyclass(frozen, module = "asperity.exact")]
-pub struct Persson(theories::Persson);
+pub struct Persson(exact::Persson);
 
 #[pymethods]
 impl Persson {
@@ -146,7 +145,7 @@ impl Persson {
             let parts = densities.as_array().into_iter().zip(waves.as_array()).map(move |(d, waves)| d * waves * cell);
             wave_numbers.as_array().into_iter().copied().zip(parts)
         });
-        theories::Persson::new(rms_slope, modulus, parts).map(Self).map_err(refusal)
+        exact::Persson::new(rms_slope, modulus, parts).map(Self).map_err(refusal)
     }
 
     fn contact_fraction<'py>(&self, py: Python<'py>, mean_pressure: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -160,13 +159,13 @@ impl Persson {
 
 /// The theory of Greenwood and Williamson.
 #[pyclass(frozen, module = "asperity.exact")]
-pub struct GreenwoodWilliamson(theories::GreenwoodWilliamson);
+pub struct GreenwoodWilliamson(exact::GreenwoodWilliamson);
 
 #[pymethods]
 impl GreenwoodWilliamson {
     #[new]
     fn new(rms_height: f64, rms_slope: f64, rms_curvature: f64, modulus: f64) -> PyResult<Self> {
-        theories::GreenwoodWilliamson::new(rms_height, rms_slope, rms_curvature, modulus).map(Self).map_err(refusal)
+        exact::GreenwoodWilliamson::new(rms_height, rms_slope, rms_curvature, modulus).map(Self).map_err(refusal)
     }
 
     /// The number of asperities per area, the radius of their curvature, and the rms of their heights.

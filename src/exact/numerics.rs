@@ -2,6 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::Error;
+
 /// Where `f`, not increasing on [low, high], passes `target`, f(low) ≥ `target` ≥ f(high), by bisection down to
 /// neighbouring numbers: some sixty evaluations. NaN counts as below.
 pub(super) fn falls_to(f: impl Fn(f64) -> f64, target: f64, mut low: f64, mut high: f64) -> f64 {
@@ -168,4 +170,10 @@ mod tests {
         assert_relative_eq!(peak(|x| -(x - 0.3).powi(2), -5.0, 5.0), 0.3, epsilon = 1e-7);
         assert!(below(|x| -x, -100.0, 0.0) >= 100.0);
     }
+}
+
+/// A mean pressure that is no tension.
+pub(super) fn pressed(value: f64) -> crate::Result<f64> {
+    let (name, requirement) = ("mean_pressure", "zero or more, as there is no adhesion");
+    if value >= 0.0 { Ok(value) } else { Err(Error::Value { name, value, requirement }) }
 }
