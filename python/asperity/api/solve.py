@@ -234,9 +234,9 @@ def solve(
         of the solution, are on the finest grid. Before the solve, the logger ``asperity`` says how much time and memory
         this will probably take; ``plan`` of the solution has the same. A tolerance that is given with it may be smaller
         than the one that it chooses.
-    accuracy_of : {"area", "gap", "approach", "pressure", "stiffness"}, optional
-        Quantity that has the accuracy: the contact area corrected for its edge, by default; the mean gap or the mean
-        pressure, if it is not given; or the contact stiffness.
+    accuracy_of : {"area", "gap", "approach", "pressure"}, optional
+        Quantity that has the accuracy: the contact area corrected for its edge, by default; or the mean gap, the approach
+        or the mean pressure, if it is not given.
     memory : float, optional
         Memory that accuracy may take, in GiB [default: all that is free].
     start : array_like, Solution or "apart", optional
