@@ -38,4 +38,5 @@ mod stiffness;
 mod stress;
 mod sweep;
 mod tabulated;
+mod words;
 mod wrappers;
