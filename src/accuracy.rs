@@ -1,6 +1,7 @@
 //! The accuracy of a solve: the error of the grid, and a solve that refines the grid until this error is small enough.
 //!
-//! [`GridError`] estimates the error of the grid, next to that of the solver; [`Accuracy`] chooses grid and tolerance.
+//! [`GridError`] estimates the error of the grid, next to the error of the solver; [`Accuracy`] chooses grid and
+//! tolerance.
 
 use crate::contact::ContactArea;
 use crate::elastic::Boundary;
@@ -25,14 +26,14 @@ pub use goal::{Accuracy, AccurateSolution, Plan};
 pub use loops::{Limit, LoopLimit};
 pub use pull_off::{AccuratePullOff, Untold};
 
-/// The quantity of which an accuracy is asked.
+/// The quantity that an accuracy is asked for.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Quantity {
     /// The contact area corrected for its edge,
     /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction); with
-    /// [`Jkr`](crate::Jkr) that of the limit, [`ContactArea::jkr_contact_fraction`](crate::contact::ContactArea).
+    /// [`Jkr`](crate::Jkr) the area in the limit, [`ContactArea::jkr_contact_fraction`](crate::contact::ContactArea).
     Area,
     /// The mean gap, under a given pressure or force in a periodic cell.
     Gap,
@@ -179,7 +180,7 @@ impl ContactStiffness {
 impl Surface {
     /// The nodes of the shortest wave of the surface,
     /// [`Spectrum::nodes_per_wave`](crate::surface::Spectrum::nodes_per_wave); with a free boundary, of the surface
-    /// continued by its mirror images. It is that of the whole surface where processes share the grid, and all ask.
+    /// continued by its mirror images. Where processes share the grid, it belongs to the whole surface, and all ask.
     pub fn nodes_per_wave(&self, boundary: Boundary) -> f64 {
         let mirrored = |whole: &Self| {
             let (heights, (lx, ly), (nx, ny)) = (mirror(whole.heights()), whole.grid().lengths(), whole.grid().shape());
@@ -188,7 +189,7 @@ impl Surface {
         };
         let of = |whole: &Self| match boundary {
             Boundary::Periodic => whole.spectrum().nodes_per_wave(),
-            // side lengths and heights are those of a surface
+            // side lengths and heights of a surface
             Boundary::Free { .. } => mirrored(whole).map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
         };
         of(&self.whole())
@@ -212,7 +213,7 @@ fn resolves_adhesion(mu_rho: f64, finer: f64) -> bool {
 /// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
 const FINE: f64 = 8.0;
 
-/// How far a coarser grid may be from half the nodes along a side, as that of an odd number is.
+/// How far a coarser grid may be from half the nodes along a side, as for an odd number.
 const HALVED: f64 = 0.02;
 
 const ORDERS: (f64, f64) = (0.5, 3.0);
@@ -252,13 +253,13 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// | approach | wb/λ̄ | √((2.5 z)² + (1.5 δ)²) | 3.75 z |
 /// | mean pressure | wb/ḡ | √((6 z)² + (3 δ)²) | 15 z |
 ///
-/// with λ̄ the mean contact pressure, and s = 1 + 0.8 (1 − p̄/λ̄)², since adhesion that carries more than the load makes
-/// more of the zone; that of the area 1 + A⁴ times as large, since the zone is narrower around holes; 4.5 times as large,
-/// and rough, where the area changes between the two grids by more than b/2 and the error without adhesion, as where a
-/// patch of contact is on one of them alone; and rough on one grid. To the squares are added those of an edge without
-/// adhesion: with M of the area above, on one grid twice, half of it for gap and pressure and 1.2 times for the approach,
-/// and on one grid 0.6/n² or 0.4/n³. The weaker the adhesion, the more the factors of δ are those without it. No estimate
-/// is zero.
+/// with λ̄ the mean contact pressure, and s = 1 + 0.8 (1 − p̄/λ̄)², since adhesion that carries more than the load
+/// makes more of the zone; the error of the area is 1 + A⁴ times as large, since the zone is narrower around holes; 4.5
+/// times as large, and rough, where the area changes between the two grids by more than b/2 and the error without
+/// adhesion, as where a patch of contact is on one of them alone; and rough on one grid. To the squares are added the
+/// squares of an edge without adhesion: with M of the area above, on one grid twice, half of it for gap and pressure
+/// and 1.2 times for the approach, and on one grid 0.6/n² or 0.4/n³. The weaker the adhesion, the nearer the factors of
+/// δ are to the factors without adhesion. No estimate is zero.
 ///
 /// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
 /// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;
@@ -280,10 +281,10 @@ impl GridError {
     /// A [`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance) at which coarser grids tell the error.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
-    /// The factor from the size of an error, as of an [`EdgeError`], to an estimate that covers 95 of 100.
+    /// The factor from the size of an error, such as an [`EdgeError`], to an estimate that covers 95 of 100.
     pub const COVER: f64 = 2.4;
 
-    /// The nodes that the shortest wave needs on a grid whose solution tells the error.
+    /// The nodes that the shortest wave needs on a grid with a solution that tells the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
     /// The errors, as by [`GridError::of`], of all quantities that the control does not give.

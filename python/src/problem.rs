@@ -56,7 +56,7 @@ impl Problem {
         either!(session = self.session() => session.scene())
     }
 
-    /// What was given for the problem and for several parts of a call, whose quantities all have units, or none has.
+    /// What was given for the problem and for several parts of a call: all quantities have units, or none has.
     fn given(&mut self, parts: &[Given]) -> PyResult<Given> {
         let of_call = parts.iter().map(|part| quantities_of(part, self.numbers_are_si));
         let quantities = Quantities::all(std::iter::once(self.quantities.clone()).chain(of_call));
@@ -257,7 +257,7 @@ impl Problem {
         either!(session = self.session() => state::cycle_limit(session, &at))
     }
 
-    /// The stability of a gap under a load, of which the certified error is known.
+    /// The stability of a gap under a load, with a known certified error.
     fn stability<'py>(
         &mut self,
         py: Python<'py>,

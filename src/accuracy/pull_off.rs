@@ -72,7 +72,7 @@ pub enum Untold {
     Waves(f64),
     /// The grid of half as many nodes along the sides tells no pull-off.
     OneGrid,
-    /// The pull-off is so many times that of the coarser grid.
+    /// The pull-off is so many times the pull-off of the coarser grid.
     Growth(f64),
 }
 
@@ -102,9 +102,9 @@ pub struct AccuratePullOff<T: Real> {
 
 impl<T: Real> FoundPullOff<T> {
     /// The pull-off in the limit of no range, a pressure, that a state under the greatest tension tells on its grid: the
-    /// tension less the share of the process zone in its adhesive energy. None of a law with a range, without a tension,
-    /// and of a periodic cell of which more than three quarters are in contact by A_E: closed surfaces have no flaw from
-    /// which to peel, and their pull-off grows as 1/√Δx.
+    /// tension less the share of the process zone in its adhesive energy. None for a law with a range, without a
+    /// tension, and for a periodic cell with more than three quarters in contact by A_E: closed surfaces have no flaw
+    /// from which to peel, and their pull-off grows as 1/√Δx.
     ///
     /// ```math
     /// T = T_grid · A/A_E ,   A_E = −E_adh/w ,   A = A_E − 0.16 S Δx
@@ -113,7 +113,7 @@ impl<T: Real> FoundPullOff<T> {
     /// At steps of the surface A is another, as [`ContactArea::jkr_contact_fraction`] says.
     ///
     /// # Errors
-    /// Those of [`ContactArea::of_solution`].
+    /// As [`ContactArea::of_solution`].
     pub fn limit(&self) -> Result<Option<f64>> {
         let report = &self.solution.report;
         let (tension, by_energy) = (-report.mean_pressure, report.adhesive_contact_fraction);
@@ -187,7 +187,7 @@ impl Accuracy {
     ///
     /// # Errors
     /// [`Error::Unsuited`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
-    /// those of `operators` and [`PullOff::find`].
+    /// errors of `operators` and of [`PullOff::find`].
     ///
     /// ```
     /// use asperity::accuracy::{Accuracy, Quantity};
@@ -216,7 +216,7 @@ impl Accuracy {
     /// finer grid follows.
     ///
     /// # Errors
-    /// Those of [`Accuracy::pull_off`].
+    /// As [`Accuracy::pull_off`].
     pub fn pull_off_observed<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

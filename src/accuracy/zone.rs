@@ -33,7 +33,8 @@ impl Quantity {
         Some(told).filter(|told| told.limit.is_finite())
     }
 
-    /// The factors of the zone and of the difference to the coarser grid, and that of the zone without a coarser grid.
+    /// The factors of the zone and of the difference to the coarser grid, and the factor of the zone without a coarser
+    /// grid.
     fn factors(self) -> [f64; 3] {
         match self {
             Self::Area => [0.7, 1.4, 1.7],

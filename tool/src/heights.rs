@@ -62,8 +62,8 @@ pub fn map_in(si: bool, path: &Path) -> Outcome<(Topography, Option<String>)> {
     in_metres_if(si, path, read_topography(path)?)
 }
 
-/// Refuses a map whose statistics, or a step of preparation, do not fit into memory: running out of it cannot be caught
-/// later.
+/// Refuses a map if its statistics, or a step of preparation, do not fit into memory: running out of it cannot be
+/// caught later.
 pub fn check_room((nx, ny): (usize, usize)) -> Outcome<()> {
     let numbers = nx.checked_mul(ny).and_then(|nodes| nodes.checked_mul(4));
     if numbers.is_none_or(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_err()) {

@@ -38,11 +38,11 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The problem that keys pose on a map of a name: that of `before`, if it is the same one and solves continue from
-    /// its last; or another one, whose solves continue from there, or from `start`.
+    /// The problem that keys pose on a map of a name: the problem `before`, if it is the same and solves continue from
+    /// its last; or another problem, with solves that continue from there, or from `start`.
     ///
     /// # Errors
-    /// The key and the remedy, and those of the surface, the law and the body.
+    /// The key and the remedy, and errors of the surface, the law and the body.
     pub fn of(
         given: &Given,
         map: &Topography,
@@ -116,7 +116,7 @@ impl Problem {
     /// The next state along the loads; nothing at their end.
     ///
     /// # Errors
-    /// Those of the solvers.
+    /// Errors of the solvers.
     pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
         either!(state = &mut self.state => state.next(observe))
     }
@@ -124,7 +124,7 @@ impl Problem {
     /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.
     ///
     /// # Errors
-    /// Those of the solvers.
+    /// Errors of the solvers.
     pub fn cycle_limit(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
         either!(state = &mut self.state => state.cycle_limit(observe))
     }

@@ -102,7 +102,7 @@ impl<T: Real> Solved<T> {
     /// Looks at the fields: fills in the keys of the account that are found of them.
     ///
     /// # Errors
-    /// Those of [`Sight::look`](crate::Sight::look).
+    /// As [`Sight::look`](crate::Sight::look).
     pub fn look(&mut self) -> Result<ContactStatistics> {
         self.found.sight.look_at(&mut self.account, &self.found.solution)
     }
@@ -198,7 +198,7 @@ impl<T: Scalar> Session<T> {
     /// account.
     ///
     /// # Errors
-    /// Those of the solvers of the library, a solve that ran away, and warnings, if they are errors.
+    /// Errors of the solvers of the library, a solve that ran away, and warnings, if they are errors.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
         let asked = Asked { control: self.on_whole(asked.control), ..*asked };
         let found = self.find(&asked, start, observe)?;
@@ -209,7 +209,7 @@ impl<T: Scalar> Session<T> {
     /// holds.
     ///
     /// # Errors
-    /// Those of [`Session::solve`].
+    /// As [`Session::solve`].
     pub fn pull_off(
         &mut self,
         asked: PullOff,
@@ -221,11 +221,11 @@ impl<T: Scalar> Session<T> {
         Ok((self.solved("pull-off", found)?, pulled_off))
     }
 
-    /// The text of a table of one row, that of a solution and of what is asked for after it, or of the pull-off that it is
-    /// the last state of. Looks at the fields.
+    /// The text of a table of one row, of a solution and of what is asked for after it, or of the pull-off that ends
+    /// with it. Looks at the fields.
     ///
     /// # Errors
-    /// Those of [`Solved::look`].
+    /// As [`Solved::look`].
     pub fn table_of(
         &self,
         solved: &mut Solved<T>,
@@ -278,7 +278,7 @@ impl<T: Scalar> Session<T> {
         self.warnings.add(new.iter().map(|warning| self.units.told(warning)).collect())
     }
 
-    /// A result whose reason has keys in braces.
+    /// A result with a reason that has keys in braces.
     fn worded<V>(&self, result: std::result::Result<V, String>) -> Outcome<V> {
         Ok(result.map_err(|reason| worded(&reason, self.skin))?)
     }

@@ -23,18 +23,18 @@ use crate::table::format_of;
 /// The commands of which a case may be a run.
 const COMMANDS: [&str; 4] = ["sweep", "cycle", "solve", "pull-off"];
 
-/// The sections that a study has besides those of its command.
+/// The sections that a study has besides the sections of its command.
 pub const SECTIONS: [&str; 2] = ["make", "vary"];
 
-/// The keys that a study decides by itself, or of which a table has nothing.
+/// The keys that a study decides by itself, or that a table lacks.
 const OWN: [&str; 3] = ["threads", "stability", "percolation"];
 
 /// The largest number of cases; more are taken for a slip of the pen.
 const MOST_CASES: usize = 1_000_000;
 
-/// A study: its table, and the cases of which the table is made.
+/// A study: its table, and the cases that make the table.
 pub struct Study {
-    /// The command of which each case is a run
+    /// The command that each case runs
     pub command: String,
     /// The file of the table
     pub out: PathBuf,
@@ -48,8 +48,8 @@ pub struct Study {
 pub struct Case {
     /// The values of the columns; none where an option is not given in this case
     pub values: Vec<Option<Value>>,
-    /// The words of the command, before it those of the command that makes the surface, if one does; files of results are
-    /// named, and not written
+    /// The words of the command, behind the words of a command that makes the surface, if one does; files of results
+    /// are named, and not written
     pub words: Vec<Vec<OsString>>,
     /// The file of the rows, named by all that they depend on
     pub rows: PathBuf,
@@ -170,7 +170,7 @@ fn choices(key: String, value: Value) -> Result<Vec<Choice>, String> {
     Ok(list.into_iter().map(choice).collect())
 }
 
-/// The values of a range FROM:TO:COUNT or FROM:TO:COUNT:log, of which both ends have the same unit or none.
+/// The values of a range FROM:TO:COUNT or FROM:TO:COUNT:log; both ends have the same unit or none.
 fn range(text: &str) -> Result<Vec<Value>, String> {
     let split = |end: &str| {
         let (number, unit) = number_and_unit(end.trim())?;
@@ -221,7 +221,7 @@ impl Commands {
         Err(format!("{name} is no option of {}: {hint}", names.join(" or ")))
     }
 
-    /// The words of both commands, of which the first makes the surface, if one does, next to the rows.
+    /// The words of both commands; the first makes the surface, if one does, next to the rows.
     fn words(&self, entries: &[&(String, Value)], folder: &Path, rows: &Path) -> Result<Vec<Vec<OsString>>, String> {
         let begun = |command: &Command| {
             let out = command.get_arguments().any(|arg| arg.get_id() == "out").then_some("--out=table.csv");

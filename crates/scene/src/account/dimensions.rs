@@ -18,7 +18,7 @@ const COLUMNS: [(&str, Dimension); 14] = [
     ("electrical_conductance", ELECTRICAL_CONDUCTANCE),
     ("thermal_conductance", THERMAL_CONDUCTANCE),
     ("transmissivity_x_lower transmissivity_x_upper transmissivity_y_lower transmissivity_y_upper", TRANSMISSIVITY),
-    // of a surface, of two bodies whose moduli are Young's, and of closed forms
+    // of a surface, of two bodies with Young's moduli, and of closed forms
     ("fourier_unit half_width wavelength", LENGTH),
     ("young other_young", PRESSURE),
     ("load", FORCE),
@@ -36,7 +36,7 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
         _ => {
             let account = Account::DIMENSIONS.iter().find(|(key, _)| *key == name).map(|(_, dimension)| *dimension);
             let column = || COLUMNS.iter().find(|(names, _)| names.split(' ').any(|column| column == name));
-            // those of a surface that is made have none in a table
+            // keys of a surface that is made have none in a table
             let of_problem = |key: &&Key| !["Form", "Roughness"].contains(&key.section);
             let key = || Key::named(name).filter(of_problem).and_then(|key| key.kind.dimension());
             account.or_else(|| column().map(|(_, dimension)| *dimension)).or_else(key)

@@ -43,7 +43,7 @@ record! {
 }
 
 record! {
-    /// The cost of one of the nested grids, with that of its problem, and its results; see [`Level`].
+    /// The cost of one of the nested grids, with its problem, and its results; see [`Level`].
     #[derive(Clone, Debug, Serialize)]
     GridLevel of (level: &Level) {
         /// The nodes (Nx, Ny) of the grid.

@@ -117,7 +117,7 @@ impl Adhesion {
         }
     }
 
-    /// Refuses a law without its parameters, parameters that are not those of the law, and a wall that does not fit.
+    /// Refuses a law without its parameters, parameters of other laws, and a wall that does not fit.
     ///
     /// # Errors
     /// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
@@ -166,7 +166,7 @@ impl Adhesion {
     /// Refuses a wall that does not fit.
     ///
     /// # Errors
-    /// As of [`Adhesion::check`].
+    /// As [`Adhesion::check`].
     pub fn check_wall(&self) -> std::result::Result<(), String> {
         let (wall, law) = (self.wall, &self.law);
         if wall == Wall::None && !self.law().is_none_or(|law| law.repels) {
@@ -201,7 +201,7 @@ impl Adhesion {
     /// Refuses a surface that yields, for a reason.
     ///
     /// # Errors
-    /// As of [`Adhesion::check`].
+    /// As [`Adhesion::check`].
     pub fn check_elastic(&self, reason: &str) -> std::result::Result<(), String> {
         let map = self.hardness_map.as_ref().map(|_| "hardness_map");
         let given = self.hardness.map(|_| "hardness").or(map);
@@ -220,10 +220,10 @@ impl Adhesion {
         self.wall.constraint(self.wall_stiffness, hardness)
     }
 
-    /// The law, whose works of adhesion do not vary, with the law of its table, if it has one.
+    /// The law without variation of its work of adhesion, with the law of its table, if it has one.
     ///
     /// # Errors
-    /// Those of the law, and those of [`CutOff::new`](asperity::adhesion::CutOff::new).
+    /// Errors of the law, and of [`CutOff::new`](asperity::adhesion::CutOff::new).
     pub fn formula(&self, table: Option<&Tabulated>) -> Result<Formula> {
         let law = (self.law().unwrap_or(&LAWS[0]).make)(self, table)?;
         match self.cut_off {

@@ -32,7 +32,7 @@ keys! {
 }
 
 keys! {
-    /// The conductors, whose conductance follows from the contact stiffness.
+    /// The conductors: their conductance follows from the contact stiffness.
     ConductorKeys {
         "Output" {
             /// Electrical resistivities of both half-spaces: with {stiffness} these give the electrical conductance of
@@ -195,7 +195,7 @@ impl After {
         all.into_iter().find_map(|(asked, name)| asked.then_some(name))
     }
 
-    /// The columns of a table for what is asked for, besides those of the stiffness.
+    /// The columns of a table for what is asked for, besides the columns of the stiffness.
     pub fn columns(&self) -> Vec<&'static str> {
         let conductance = self.conductors.into_iter().flat_map(|conductors| [conductors.column(), ERROR]);
         conductance.chain(self.leakage.into_iter().flat_map(|_| LEAKAGE)).collect()

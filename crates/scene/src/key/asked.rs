@@ -42,7 +42,7 @@ impl Given {
     /// What is asked of a solve under a load where a reduced pressure of 1 is the `full` pressure.
     ///
     /// # Errors
-    /// Those of [`Given::after`] and [`Given::goal`].
+    /// As [`Given::after`] and [`Given::goal`].
     pub fn asked(&self, load: Load, full: f64) -> Result<Asked, String> {
         let nested = self.switch("nested");
         Ok(Asked {

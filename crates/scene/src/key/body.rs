@@ -191,7 +191,7 @@ impl Body {
     }
 }
 
-/// One value or two, of which the second is zero if it is left out.
+/// One value or two; the second is zero if left out.
 fn pair<T: Copy + Default>(values: Option<&[T]>) -> Option<(T, T)> {
     match values? {
         [x] => Some((*x, T::default())),

@@ -80,7 +80,7 @@ record! {
     Elastic of () {
         /// The boundary.
         boundary: Boundary = Boundary::default(),
-        /// The contact modulus E*, a pressure; of a coated body that of the substrate.
+        /// The contact modulus E*, a pressure; of a coated body the substrate's.
         modulus: f64 = 1.0,
         /// Poisson's ratio of a layer or of the substrate under a coating.
         poisson: Option<f64> = None,
@@ -200,7 +200,7 @@ impl Elastic {
         })
     }
 
-    /// The contact modulus E* of both bodies, of one whose own is `modulus` and of the other: 1/E* = 1/E₁* + 1/E₂*.
+    /// The contact modulus E* of both bodies, of a body with `modulus` and of the other: 1/E* = 1/E₁* + 1/E₂*.
     pub(crate) fn with_other(&self, modulus: f64) -> f64 {
         self.against_modulus.map_or(modulus, |other| {
             let (softer, harder) = (modulus.min(other), modulus.max(other));
@@ -236,7 +236,7 @@ impl Elastic {
         self.kind().map(|kind| kind.key)
     }
 
-    /// Refuses a body without its parameters, and parameters that are not those of the body.
+    /// Refuses a body without its parameters, and parameters of other bodies.
     ///
     /// # Errors
     /// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
@@ -305,7 +305,7 @@ impl Elastic {
     /// The body for the waves of a grid.
     ///
     /// # Errors
-    /// Those of the body.
+    /// Errors of the body.
     fn body_on(&self, grid: &Grid) -> Result<Arc<dyn Body>> {
         match &self.symbol {
             Some(symbol) => self.in_series(Arc::new(symbol.on(grid)?)),
@@ -320,7 +320,7 @@ impl Elastic {
         Ok(Arc::new(Series(own, other)))
     }
 
-    /// The pressure E* h'rms, with E* of both bodies, of which a reduced pressure is a part.
+    /// The pressure E* h'rms, with E* of both bodies, the unit of a reduced pressure.
     ///
     /// # Errors
     /// The reason why a surface with absent nodes has none, and a remedy.

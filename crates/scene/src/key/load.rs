@@ -5,7 +5,7 @@ use asperity::Control;
 use crate::key::{Boundary, FORCE, FORCE_PER_LENGTH, Given, Kind, LENGTH, PRESSURE, Range, keys};
 
 keys! {
-    /// The load of a solve, of which one is given.
+    /// The load of a solve, one of these.
     LoadKeys {
         "Load" {
             /// Mean gap that is held, a length; with a periodic boundary
@@ -173,17 +173,17 @@ pub enum Load {
 }
 
 impl Load {
-    /// The keys of which one is given for a load: that of a spring is its stiffness.
+    /// The keys of one load, the stiffness for a spring.
     pub fn one() -> impl Iterator<Item = &'static str> {
         KINDS.iter().map(|kind| if kind.one == "spring_position" { "spring_stiffness" } else { kind.one })
     }
 
-    /// The key of one load, by that of a list of them.
+    /// The key of one load, by the key of a list of loads.
     pub fn one_of(many: &str) -> Option<&'static str> {
         KINDS.iter().find(|kind| kind.many == many).map(|kind| kind.one)
     }
 
-    /// The keys of which one is given for a list of loads that are held.
+    /// The keys of a list of loads that are held.
     pub fn many() -> impl Iterator<Item = &'static str> {
         let held = KINDS.iter().filter(|kind| kind.one != "contact_fraction");
         held.map(|kind| if kind.one == "spring_position" { "spring_stiffness" } else { kind.many })

@@ -51,9 +51,9 @@ choice! {
 choice! {
     /// The branches of equilibria to solve on.
     Branches {
-        /// that of surfaces pressed together from afar
+        /// the equilibrium of surfaces pressed together from afar
         Loading = "loading",
-        /// that of surfaces pressed flat before
+        /// the equilibrium of surfaces pressed flat before
         Unloading = "unloading",
         /// one after the other
         Both = "both",

@@ -63,11 +63,11 @@ impl Given {
 /// The units of lengths, pressures and forces, from which the others follow.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Units {
-    /// That of lengths.
+    /// The unit of lengths.
     pub length: Option<String>,
-    /// That of pressures.
+    /// The unit of pressures.
     pub pressure: Option<String>,
-    /// That of forces, if it is another one than a pressure times an area.
+    /// The unit of forces, if it is another one than a pressure times an area.
     pub force: Option<String>,
 }
 
@@ -78,7 +78,7 @@ impl Units {
         Self { length, pressure, force }
     }
 
-    /// The units of a map, of which that of length alone may be known.
+    /// The units of a map, which may know the unit of length alone.
     pub fn of_map(length: Option<&str>) -> Self {
         Self { length: length.map(str::to_owned), ..Self::default() }
     }

@@ -92,7 +92,7 @@ impl<T: Scalar> Session<T> {
     /// ends a solve. It is told once.
     ///
     /// # Errors
-    /// Those of the solvers of the library.
+    /// Errors of the solvers of the library.
     pub fn cycle_limit(
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),

@@ -1,4 +1,4 @@
-//! The problem of a session: its surface, of which it is made, and its solver.
+//! The problem of a session: the surface that makes it, and its solver.
 
 use std::mem;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ use crate::session::{Observe, Session};
 /// The operator applications of a search for the pull-off; of rough surfaces 300 to 1200.
 const PULL_OFF: f64 = 600.0;
 
-/// The surface, of which a problem is made on each of nested grids, or the problem on its grid alone: never both.
+/// The surface, to make a problem on each of nested grids, or the problem on its grid alone: never both.
 pub(super) enum Body<T: Real> {
     Surface(Arc<Surface>),
     Problem(Box<Problem<T>>),
@@ -54,7 +54,7 @@ impl<T: Scalar> Session<T> {
     /// The tolerance to which a solve is held, to an accuracy, if one is asked for.
     ///
     /// # Errors
-    /// Those of [`Accuracy::tolerance`](asperity::accuracy::Accuracy::tolerance).
+    /// As [`Accuracy::tolerance`](asperity::accuracy::Accuracy::tolerance).
     pub fn tolerance(&self, goal: Option<Goal>) -> Result<f64> {
         let settings = self.solver.settings;
         goal.map_or(Ok(settings.tolerance_in::<T>()), |goal| goal.wanted(false).tolerance(&settings))
@@ -86,7 +86,7 @@ impl<T: Scalar> Session<T> {
         seconds_of(&mut self.scene.elastic.operator::<T>(*self.surface()?.grid())?)
     }
 
-    /// The pressure of which a reduced pressure is a part, if one is among `loads`, before the first solve.
+    /// The unit of a reduced pressure, if one is among `loads`, before the first solve.
     ///
     /// # Errors
     /// Those of [`Load::check`] and [`Elastic::full_pressure`](crate::Elastic::full_pressure).
@@ -111,12 +111,12 @@ impl<T: Scalar> Session<T> {
     /// The gap of undeformed bodies under a load that says how far they are, before the first solve.
     ///
     /// # Errors
-    /// Those of [`Boundary::apart`](crate::Boundary::apart).
+    /// As [`Boundary::apart`](crate::Boundary::apart).
     pub fn apart(&self, load: Control) -> Outcome<Array2<f64>> {
         self.worded(self.scene.elastic.boundary.apart(&*self.surface()?, load))
     }
 
-    /// The plan of a solve to an accuracy, and the seconds that it is likely to take, by those of an operator
+    /// The plan of a solve to an accuracy, and the seconds that it is likely to take, by the seconds of an operator
     /// application.
     ///
     /// # Errors
@@ -148,7 +148,7 @@ impl<T: Scalar> Session<T> {
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it.
     ///
     /// # Errors
-    /// Those of the solvers of the library.
+    /// Errors of the solvers of the library.
     pub(super) fn find(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
         let found = match asked.goal {
             Some(goal) => self.by_accuracy(goal, asked, &mut *observe)?,
@@ -185,7 +185,7 @@ impl<T: Scalar> Session<T> {
     /// The contact stiffness of a solution, unless its solve was stopped.
     ///
     /// # Errors
-    /// Those of [`ContactStiffness::of_constrained`].
+    /// As [`ContactStiffness::of_constrained`].
     pub(super) fn stiffness(&mut self, solution: &Solution<T>) -> Result<Option<ContactStiffness>> {
         if solution.report.status == Status::Stopped {
             return Ok(None);
@@ -195,10 +195,10 @@ impl<T: Scalar> Session<T> {
         ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
     }
 
-    /// The stability of a gap under a load, of which the certified error is known, and its softest mode.
+    /// The stability of a gap under a load, with a known certified error, and its softest mode.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::of_gap`].
+    /// As [`StabilityTest::of_gap`].
     pub fn stability(&mut self, control: Control, gap: &Array2<T>, error: f64) -> Result<(Steadiness, Array2<T>)> {
         let control = self.on_whole(control);
         let (solver, problem) = self.parts()?;
@@ -210,7 +210,7 @@ impl<T: Scalar> Session<T> {
     /// With a law that has the range of the grid a coarser grid tells the error, unless a start is given.
     ///
     /// # Errors
-    /// Those of [`PullOff::find_from`] and [`Accuracy::pull_off`](asperity::accuracy::Accuracy::pull_off).
+    /// As [`PullOff::find_from`] and [`Accuracy::pull_off`](asperity::accuracy::Accuracy::pull_off).
     pub(super) fn find_pull_off(
         &mut self,
         asked: PullOff,
@@ -248,7 +248,7 @@ impl<T: Scalar> Session<T> {
     }
 }
 
-/// The seconds of an application of an operator, of which the first is a trial.
+/// The seconds of an application of an operator, after a trial.
 fn seconds_of<T: Real>(operator: &mut impl ElasticOperator<T>) -> Result<f64> {
     let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().field_shape()));
     let [u, p] = &mut fields;
