@@ -16,6 +16,7 @@ import sys
 from . import contact, exact, surface
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
+from .answers.numbers import Report
 from .answers.cycle import Cycle, CycleLimit, Step
 from .answers.findings import (
     Conductance,
@@ -39,7 +40,7 @@ from .api.tables import cycle, interface, sweep
 from .bodies.body import Coating, Layer, Symbol
 from .bodies.wall import Penalty, Uzawa
 from .common.progress import progress
-from .common.types import OwnLaw, Report
+from .common.types import OwnLaw
 from .common.warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from .curves import CurveFit, CurveMap, Estimate, ForceCurve, ModelFit, TipTable, fit_curve, fit_curves, read_curve
 from .laws.composite import CutOff, Varying

@@ -1,11 +1,10 @@
 //! The columns of a table as people read them.
 
-use asperity_scene::dimension_of;
 use asperity_scene::legs::value;
+use asperity_scene::{Account, Measure};
 use serde_json::Value;
 
-use crate::numbers::{percent, rounded};
-use crate::quantity::{Dimension, ENERGY, ENERGY_PER_AREA};
+use crate::quantity::{ENERGY, ENERGY_PER_AREA};
 use crate::units::Units;
 
 /// The columns of the rows of a table, with their units. Energies of a body with a free boundary are in full, as a window
@@ -19,8 +18,8 @@ pub struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     pub fn new(rows: &'a [Value], units: &'a Units) -> Self {
-        let control = rows.first().and_then(|row| row["control"].as_str()).unwrap_or_default();
-        let free = rows.iter().any(|row| !row["approach"].is_null());
+        let control = rows.first().and_then(|row| row[Account::NAMES.control].as_str()).unwrap_or_default();
+        let free = rows.iter().any(|row| !row[Account::NAMES.approach].is_null());
         // rows have no side lengths, but the force over the area and the force
         let area = rows.iter().filter_map(area).max_by(f64::total_cmp);
         Self { units, control, area: area.filter(|_| free) }
@@ -33,28 +32,28 @@ impl<'a> Columns<'a> {
 
     /// The number of a row in a column; not a number where there is none.
     pub fn value(&self, row: &Value, name: &str) -> f64 {
-        match (self.dimension(name), self.area) {
-            (Some(ENERGY), Some(of_table)) => area(row).unwrap_or(of_table) * value(row, name),
+        match (self.measure(name), self.area) {
+            (Measure::Of(ENERGY), Some(of_table)) => area(row).unwrap_or(of_table) * value(row, name),
             _ => value(row, name),
         }
     }
 
-    /// The dimension of a column.
-    fn dimension(&self, name: &str) -> Option<Dimension> {
-        match dimension_of(name, self.control, false) {
-            Some(ENERGY_PER_AREA) if self.area.is_some() && name != "work_of_adhesion" => Some(ENERGY),
+    /// The measure of a column.
+    fn measure(&self, name: &str) -> Measure {
+        match Measure::of(name, self.control, false) {
+            Measure::Of(ENERGY_PER_AREA) if self.area.is_some() && name != "work_of_adhesion" => Measure::Of(ENERGY),
             other => other,
         }
     }
 
     /// The unit of a column.
     pub fn unit(&self, name: &str) -> Option<String> {
-        self.units.of(self.dimension(name)?)
+        self.units.of(self.measure(name).dimension()?)
     }
 
     /// A number of a column for people.
     pub fn number(&self, name: &str, value: f64) -> String {
-        number(name, value, self.dimension(name), self.units)
+        self.measure(name).text(value, self.units)
     }
 
     /// The name of a column for people.
@@ -71,15 +70,4 @@ pub fn spaced(name: &str) -> String {
 /// The nominal area of a row with a load that is not zero.
 fn area(row: &Value) -> Option<f64> {
     Some(value(row, "normal_force") / value(row, "mean_pressure")).filter(|area| area.is_finite())
-}
-
-/// A number of a name and dimension for people: a share in percent, and an error to two digits.
-pub fn number(name: &str, value: f64, dimension: Option<Dimension>, units: &Units) -> String {
-    match dimension {
-        Some(dimension) => units.number(value, dimension),
-        None if name == "seconds" => format!("{value:.3} s"),
-        None if name.ends_with("_fraction") || name == "relative" => format!("{} %", percent(value)),
-        None if name.ends_with("_error") => format!("{value:.1e}"),
-        None => rounded(value, 4, 1e6),
-    }
 }

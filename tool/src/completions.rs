@@ -4,12 +4,13 @@ use std::io::{self, Write};
 
 use asperity_maps::{RowAlignment, Trend};
 use clap::builder::PossibleValuesParser;
-use clap::{Arg, Args, Command, ValueHint};
+use clap::{Arg, Args, CommandFactory, ValueHint};
 use clap_complete::{Shell, generate};
 
 use crate::outcome::Outcome;
 use crate::printing::printed;
 use crate::scene::is_path;
+use crate::{Call, Tool};
 
 /// Print the completions of commands, options and their values for a shell.
 ///
@@ -30,9 +31,9 @@ const EXAMPLES: &str = "\
     asperity completions fish > ~/.config/fish/completions/asperity.fish";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, tool: Command) -> Outcome<bool> {
+pub fn run(options: &Options, _: &Call<'_>) -> Outcome<bool> {
     let mut script = Vec::new();
-    let mut tool = tool.mut_subcommands(|command| command.mut_args(with_values));
+    let mut tool = Tool::command().mut_subcommands(|command| command.mut_args(with_values));
     generate(options.shell, &mut tool, "asperity", &mut script);
     printed(io::stdout().write_all(&script));
     Ok(true)

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use asperity::{Error, Grid};
 use asperity_plot::{Chart, Paper, Picture};
+use asperity_scene::Inputs;
 use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
 use clap::Args;
 use serde_json::{Value, json};
 
+use crate::Call;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::write_text;
@@ -17,7 +19,7 @@ use crate::printing::{Printing, aligned};
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE};
 use crate::report;
 use crate::results::{self, Contents, REPORT, Results, write_report};
-use crate::scene::{self, SceneFile};
+use crate::scene;
 use crate::solved::{CONTACT_PRESSURE, GAP, Solved, units_of};
 use crate::units::Units;
 
@@ -62,7 +64,7 @@ const EXAMPLES: &str = "\
 const NAMES: [&str; 4] = ["gap", "pressure", "autocorrelation", "clusters"];
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let &Options { solved: ref folder, ref out, force, picture_format, size, printing } = options;
     let files = || results::files(&NAMES.map(|name| format!("{name}.csv")).each_ref().map(String::as_str), &NAMES);
     let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
@@ -124,7 +126,7 @@ fn rows<const N: usize>(folder: &Path, name: &str) -> Outcome<Vec<[f64; N]>> {
 /// The contents of a folder of this command, with its report.
 pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents> {
     let (figures, units): (ContactFigures, _) = (serde_json::from_value(report.clone())?, units_of(report));
-    let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
+    let (shape, lengths) = serde_json::from_value(json!([report[Inputs::NAMES.shape], report[Inputs::NAMES.lengths]]))?;
     let density = |name: &str, exponent| {
         let rows = rows::<3>(folder, name)?;
         let edges = rows.iter().map(|row| row[0]).chain(rows.last().map(|row| row[1])).collect();

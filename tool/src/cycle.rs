@@ -2,22 +2,24 @@
 
 use std::path::PathBuf;
 
+use asperity_scene::legs::value;
 use asperity_scene::{
-    AdhesionKeys, Chosen, CycleLimit, Load, LoadsKeys, PathKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys, Way,
-    unbalanced,
+    Account, AccountNames, AdhesionKeys, Chosen, CycleLimit, Load, LoadsKeys, PathKeys, Skin, SolverKeys, Step,
+    StepNames, SurfaceKeys, UnitKeys, Way, unbalanced,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
+use crate::Call;
 use crate::columns::Columns;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::{PaperOptions, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, say, warn};
-use crate::processes::Processes;
 use crate::quantity::{FORCE, PRESSURE};
-use crate::scene::SceneFile;
+use crate::report::LAST;
 use crate::table::{Fill, Manner, Table, TableOptions, format_of};
+use crate::units::Units;
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -76,7 +78,7 @@ const EXAMPLES: &str = "\
 const MOST_EVENTS: usize = 8;
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let Options { out, fields, plot, manner, .. } = options;
     let format = format_of(out, "")?;
     processes.first(|| check_plot(plot.as_deref(), out, manner.force))?;
@@ -109,103 +111,145 @@ impl Options {
 
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limit: Option<CycleLimit>) -> Outcome<()> {
-        let (rows, units) = (table.session.read()?, table.session.units());
-        let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
-        let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
-        let tension = -least("mean_pressure");
-        // the largest jump first, and at the end limit points, which dissipate nothing
-        let mut events: Vec<usize> = (0..rows.len()).filter(|&k| !rows[k]["event"].is_null()).collect();
-        let drop = |k: usize| rows[k]["energy_drop"].as_f64().unwrap_or(f64::NEG_INFINITY);
-        events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
-        // of the greatest work, as it is that of the jumps alone at the end
-        let most = rows.iter().map(|row| number(row, "work").abs()).fold(f64::MIN_POSITIVE, f64::max);
-        let imbalance = rows.last().map_or(0.0, |last| number(last, "imbalance"));
-        let free = table.is_free();
-        let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
-        self.manner.printing.report(|| {
-            let last = rows.last().cloned().unwrap_or_default();
-            let event = |&k: &usize| {
-                let kept = ["mean_gap", "mean_pressure", "normal_force", "approach"];
-                let names = ["leg", "direction", "control_value", "event", "energy_drop"].iter().chain(&kept);
-                let mut found: Map<_, _> = names.map(|name| ((*name).to_owned(), rows[k][*name].clone())).collect();
-                if let Some(before) = k.checked_sub(1) {
-                    let from = kept.iter().map(|name| ((*name).to_owned(), rows[before][*name].clone()));
-                    found.insert("from".to_owned(), from.collect::<Value>());
-                }
-                Value::Object(found)
-            };
-            let found = json!({
-                "greatest_tension": (tension > 0.0).then_some(tension),
-                "greatest_tensile_force": (tension > 0.0).then_some(-least("normal_force")),
-                "events": events.iter().map(event).collect::<Vec<_>>(),
-                "work": last["work"],
-                "dissipated": last["dissipated"],
-                "plastic_energy": last["plastic_energy"],
-                "imbalance": last["imbalance"],
-                "work_error": last["work_error"],
-                "last": last,
-            });
-            let parts = [found, json!(limit)];
-            table.report(
-                parts.iter().filter_map(Value::as_object).flatten().map(|(k, v)| (k.clone(), v.clone())).collect(),
-            )
-        });
+        let (rows, units, free) = (&table.session.read()?, table.session.units(), table.is_free());
+        let (x, y) = if free { (AT.approach, AT.normal_force) } else { (AT.mean_gap, AT.mean_pressure) };
+        let followed = Followed { rows, units, free, axes: [x, y], limit };
+        self.manner.printing.report(|| table.report(followed.report()));
         if self.manner.printing.for_people() {
-            let columns = Columns::new(&rows, units);
-            let in_limit = |[value, error]: [String; 2]| say(&format!("  in the limit          {value} ± {error}"));
-            let told = |row: &Value, name: &str| columns.number(name, columns.value(row, name));
-            let tension_in_limit = |scale: f64, dimension| {
-                if let Some(CycleLimit { tension_limit, tension_limit_error, .. }) = limit {
-                    in_limit(
-                        [tension_limit, tension_limit_error].map(|number| units.number(scale * number, dimension)),
-                    );
-                }
-            };
             say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
-            if tension > 0.0 {
-                if !free {
-                    say(&format!("greatest tension        at least {}", units.number(tension, PRESSURE)));
-                    tension_in_limit(1.0, PRESSURE);
-                }
-                let force = -least("normal_force");
-                say(&format!("greatest tensile force  at least {}", units.number(force, FORCE)));
-                tension_in_limit(force / tension, FORCE);
-            }
-            for &k in events.iter().take(MOST_EVENTS) {
-                let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
-                let event = row["event"].as_str().unwrap_or_default();
-                let ways = [x, y]
-                    .map(|name| format!("{} {} to {}", name.replace('_', " "), told(before, name), told(row, name)));
-                let drop = row["energy_drop"].as_f64().map(|_| format!(", energy drop {}", told(row, "energy_drop")));
-                say(&format!("{event:<23} {}{}", ways.join(", "), drop.unwrap_or_default()));
-            }
-            if events.len() > MOST_EVENTS {
-                let more = events.len() - MOST_EVENTS;
-                say(&format!("and {more} smaller event{}", if more == 1 { "" } else { "s" }));
-            }
-            if let Some(last) = rows.last() {
-                say(&format!("dissipated in jumps     {}", told(last, "dissipated")));
-                if last["plastic_energy"].is_number() {
-                    say(&format!("dissipated by yielding  {}", told(last, "plastic_energy")));
-                }
-                say(&format!("work done by the load   {} ± {}", told(last, "work"), told(last, "work_error")));
-                if let Some(CycleLimit { work_limit, work_limit_error, .. }) = limit {
-                    let limit = json!({ "work": work_limit, "work_error": work_limit_error });
-                    in_limit(["work", "work_error"].map(|name| told(&limit, name)));
-                }
-                let share = 100.0 * (imbalance / most).abs();
-                let greatest = rows.iter().find(|row| number(row, "work").abs() == most).unwrap_or(last);
-                let of = columns.number("work", columns.value(greatest, "work").abs());
-                let imbalance = told(last, "imbalance");
-                say(&format!(
-                    "imbalance of energy     {imbalance}, {share:.1} % of the greatest work on the way, {of}"
-                ));
-            }
+            followed.lines().iter().for_each(|line| say(line));
         }
-        if let Some(text) = unbalanced(most, imbalance, Skin::Options) {
+        if let Some(text) = unbalanced(followed.greatest_work().0, followed.imbalance(), Skin::Options) {
             warn(format!("{}: {text}", printing::name(&self.out)));
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        table.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.size.paper())?))
+        table.first(|| write_picture(plot, &chart_of_columns(rows, x, y, units, self.size.paper())?))
     }
+}
+
+/// The names of the numbers of a state, and of its place on the cycle.
+const AT: AccountNames = Account::NAMES;
+const STEP: StepNames = Step::NAMES;
+
+/// A cycle with all of its rows.
+struct Followed<'a> {
+    rows: &'a [Value],
+    units: &'a Units,
+    /// Whether the boundary is free
+    free: bool,
+    /// The columns along which the cycle is told
+    axes: [&'static str; 2],
+    limit: Option<CycleLimit>,
+}
+
+impl Followed<'_> {
+    fn least(&self, name: &str) -> f64 {
+        self.rows.iter().map(|row| value(row, name)).fold(0.0, f64::min)
+    }
+
+    fn imbalance(&self) -> f64 {
+        self.rows.last().map_or(0.0, |last| value(last, STEP.imbalance))
+    }
+
+    /// The greatest work on the way, as at the end the work is that of the jumps alone, and the row that has it.
+    fn greatest_work(&self) -> (f64, Option<&Value>) {
+        let work = |row: &Value| value(row, STEP.work).abs();
+        let most = self.rows.iter().map(work).fold(f64::MIN_POSITIVE, f64::max);
+        (most, self.rows.iter().find(|row| work(row) == most).or(self.rows.last()))
+    }
+
+    /// The rows with an event: the largest jump first, and at the end limit points, which dissipate nothing.
+    fn events(&self) -> Vec<usize> {
+        let mut events: Vec<_> = (0..self.rows.len()).filter(|&k| !self.rows[k][STEP.event].is_null()).collect();
+        let drop = |k: usize| self.rows[k][STEP.energy_drop].as_f64().unwrap_or(f64::NEG_INFINITY);
+        events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
+        events
+    }
+
+    /// The keys of the report.
+    fn report(&self) -> Value {
+        let last = self.rows.last().cloned().unwrap_or_default();
+        let kept = [AT.mean_gap, AT.mean_pressure, AT.normal_force, AT.approach];
+        let event = |&k: &usize| {
+            let of_step = [STEP.leg, STEP.direction, AT.control_value, STEP.event, STEP.energy_drop];
+            let mut found = cells(&self.rows[k], of_step.iter().chain(&kept));
+            if let Some(before) = k.checked_sub(1) {
+                found.insert("from".to_owned(), cells(&self.rows[before], &kept).into());
+            }
+            Value::Object(found)
+        };
+        let [tension, force] = [AT.mean_pressure, AT.normal_force].map(|name| -self.least(name));
+        let of_cycle = [STEP.work, STEP.dissipated, AT.plastic_energy, STEP.imbalance, STEP.work_error];
+        let mut found = Map::from_iter([
+            ("greatest_tension".to_owned(), json!((tension > 0.0).then_some(tension))),
+            ("greatest_tensile_force".to_owned(), json!((tension > 0.0).then_some(force))),
+            ("events".to_owned(), self.events().iter().map(event).collect()),
+        ]);
+        found.extend(cells(&last, &of_cycle));
+        found.insert(LAST.to_owned(), last);
+        found.extend(json!(self.limit).as_object().cloned().unwrap_or_default());
+        found.into()
+    }
+
+    /// The summary for people.
+    fn lines(&self) -> Vec<String> {
+        let columns = Columns::new(self.rows, self.units);
+        let told = |row: &Value, name: &str| columns.number(name, columns.value(row, name));
+        let mut lines = self.tension();
+        let events = self.events();
+        for &k in events.iter().take(MOST_EVENTS) {
+            let (row, before) = (&self.rows[k], &self.rows[k.saturating_sub(1)]);
+            let event = row[STEP.event].as_str().unwrap_or_default();
+            let way = |name: &str| format!("{} {} to {}", name.replace('_', " "), told(before, name), told(row, name));
+            let drop = row[STEP.energy_drop].as_f64().map(|_| format!(", energy drop {}", told(row, STEP.energy_drop)));
+            lines.push(format!("{event:<23} {}{}", self.axes.map(way).join(", "), drop.unwrap_or_default()));
+        }
+        if events.len() > MOST_EVENTS {
+            let more = events.len() - MOST_EVENTS;
+            lines.push(format!("and {more} smaller event{}", if more == 1 { "" } else { "s" }));
+        }
+        let (most, greatest) = self.greatest_work();
+        let Some((last, greatest)) = self.rows.last().zip(greatest) else { return lines };
+        lines.push(format!("dissipated in jumps     {}", told(last, STEP.dissipated)));
+        if last[AT.plastic_energy].is_number() {
+            lines.push(format!("dissipated by yielding  {}", told(last, AT.plastic_energy)));
+        }
+        lines.push(format!("work done by the load   {} ± {}", told(last, STEP.work), told(last, STEP.work_error)));
+        if let Some(CycleLimit { work_limit, work_limit_error, .. }) = self.limit {
+            let limit = json!({ "work": work_limit, "work_error": work_limit_error });
+            lines.push(in_limit([STEP.work, STEP.work_error].map(|name| told(&limit, name))));
+        }
+        let share = 100.0 * (self.imbalance() / most).abs();
+        let of = columns.number(STEP.work, columns.value(greatest, STEP.work).abs());
+        let imbalance = told(last, STEP.imbalance);
+        lines.push(format!("imbalance of energy     {imbalance}, {share:.1} % of the greatest work on the way, {of}"));
+        lines
+    }
+
+    /// The greatest tension, as a pressure where there is an area, and as a force.
+    fn tension(&self) -> Vec<String> {
+        let [tension, force] = [AT.mean_pressure, AT.normal_force].map(|name| -self.least(name));
+        if tension <= 0.0 {
+            return Vec::new();
+        }
+        let told = |name: &str, found: f64, dimension| {
+            let limit = self.limit.map(|CycleLimit { tension_limit, tension_limit_error, .. }| {
+                [tension_limit, tension_limit_error].map(|value| self.units.number(found / tension * value, dimension))
+            });
+            let found = self.units.number(found, dimension);
+            [Some(format!("{name:<24}at least {found}")), limit.map(in_limit)].into_iter().flatten()
+        };
+        let of_area = (!self.free).then(|| told("greatest tension", tension, PRESSURE));
+        of_area.into_iter().flatten().chain(told("greatest tensile force", force, FORCE)).collect()
+    }
+}
+
+/// A line with the limit of no range, and its error.
+fn in_limit([value, error]: [String; 2]) -> String {
+    format!("  in the limit          {value} ± {error}")
+}
+
+/// The cells of a row by the names of their columns.
+fn cells<'a>(row: &Value, names: impl IntoIterator<Item = &'a &'static str>) -> Map<String, Value> {
+    names.into_iter().map(|name| ((*name).to_owned(), row[*name].clone())).collect()
 }

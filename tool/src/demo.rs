@@ -18,7 +18,6 @@ use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::pictures::{self, PaperOptions, PictureFormat};
 use crate::printing::{Printing, in_options, name, on_terminal};
-use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::results::Results;
 use crate::scene::{self, SceneFile};
@@ -27,7 +26,7 @@ use crate::solve;
 use crate::summary::{table, warn};
 use crate::threads::use_threads;
 use crate::units::Units;
-use crate::{Command, Tool, parsed};
+use crate::{Call, Command, Tool, parsed};
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
@@ -69,7 +68,7 @@ const GIVEN: &str = "--lengths 1um --modulus 1GPa --mean-pressure 5MPa";
 const CASES: [(&str, &str); 2] = [("without adhesion", ""), ("with adhesion", "--law jkr --work-of-adhesion 50mJ/m2")];
 
 /// Runs the command; whether both solves converged.
-pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<bool> {
     let &Options { ref out, printing, picture_format, size, .. } = options;
     let cases = CASES.map(|(name, _)| name.replace(' ', "-"));
     let map = |what: &str| cases.each_ref().map(|case| picture_format.file(&format!("{what}-{case}")));

@@ -12,12 +12,11 @@ use asperity_scene::{
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};
 
+use crate::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, check_free, write_text};
 use crate::printing::{complain, in_options};
-use crate::processes::Processes;
-use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
 
 /// Tabulate the law of an interface over the load, for finite elements.
@@ -59,7 +58,7 @@ const EXAMPLES: &str = "\
       --mean-pressures 10kPa:1MPa:12:log --leakage --for comsol --out seal.csv";
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let Options { out, manner, .. } = options;
     let problem = &ProblemOptions::of([&options.problem.0, &options.asked.0])?;
     if problem.scene.elastic.boundary == Boundary::Free {

@@ -9,12 +9,12 @@ use asperity_scene::{AdhesionKeys, Chosen, LAWS, Law, Scalar, Skin, UnitKeys};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
+use crate::Call;
 use crate::adhesion::uniform;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::pictures::PaperOptions;
 use crate::printing::{bold, in_options, say};
-use crate::scene::SceneFile;
 
 /// List the adhesion laws, with formula, parameters and source.
 ///
@@ -53,7 +53,7 @@ const POINTS: u32 = 400;
 const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let mut adhesion = options.adhesion.0.scene()?.adhesion;
     if let Some(name) = &options.name {
         adhesion.law = name.clone();

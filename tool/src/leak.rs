@@ -8,11 +8,12 @@ use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, write_npy};
 use asperity_plot::{Colouring, Map, Paper, Picture};
-use asperity_scene::{Boundary, Chosen, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin};
+use asperity_scene::{Boundary, Chosen, Inputs, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin};
 use clap::Args;
 use ndarray::Array2;
 use serde_json::{Value, json};
 
+use crate::Call;
 use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::pictures::{PaperOptions, PictureFormat};
@@ -78,7 +79,7 @@ const PICTURES: [&str; 2] = ["flow_x", "flow_y"];
 const DECADES: (f64, f64) = (-3.0, 1.5);
 
 /// Runs the command; whether the bounds are as close as the tolerance.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let &Options { ref gap, ref out, force, printing, .. } = options;
     let files = || results::files(FIELDS.as_flattened(), &PICTURES);
     let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
@@ -181,7 +182,7 @@ fn speed(flow: &Flow) -> Array2<f64> {
 /// The contents of a folder of this command, with its report.
 pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents> {
     let (leaked, units): (Leaked, _) = (serde_json::from_value(report.clone())?, units_of(report));
-    let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
+    let (shape, lengths) = serde_json::from_value(json!([report[Inputs::NAMES.shape], report[Inputs::NAMES.lengths]]))?;
     let grid = Grid::new(shape, lengths)?;
     let mut pictures = Vec::new();
     for axis in Axis::BOTH.into_iter().filter(|axis| *leaked.percolates.along(*axis)) {

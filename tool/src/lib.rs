@@ -105,25 +105,74 @@ const EXAMPLES: &str = "\
   asperity selftest
   asperity solve --help";
 
-#[derive(Subcommand)]
-enum Command {
-    Demo(demo::Options),
-    Solve(Box<solve::Options>),
-    Sweep(Box<sweep::Options>),
-    Cycle(Box<cycle::Options>),
-    PullOff(Box<pull_off::Options>),
-    Study(study::Options),
-    Run(run::Options),
-    Report(page::Options),
-    Prepare(prepare::Options),
-    Surface(surface::Options),
-    Stats(stats::Options),
-    Leak(Box<leak::Options>),
-    Interface(Box<interface::Options>),
-    Contact(contact::Options),
-    Laws(Box<laws::Options>),
-    Selftest(selftest::Options),
-    Completions(completions::Options),
+/// What a command may be part of.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    /// A run of several processes
+    Processes,
+    /// A scene
+    Scene,
+    /// A study, as its cases
+    Study,
+}
+
+macro_rules! commands {
+    ($($name:literal $variant:ident $module:ident: [$($place:ident),*],)+) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $(#[command(name = $name)] $variant(Box<$module::Options>),)+
+        }
+
+        impl Command {
+            fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(_) => $name,)+
+                }
+            }
+
+            fn run(&self, call: &Call<'_>) -> Outcome<bool> {
+                match self {
+                    $(Self::$variant(options) => $module::run(options, call),)+
+                }
+            }
+        }
+
+        /// The commands, with what they may be part of.
+        const COMMANDS: &[(&str, &[Place])] = &[$(($name, &[$(Place::$place),*]),)+];
+    };
+}
+
+// the name of each command, the module that has its options and runs it, and what it may be part of
+commands! {
+    "demo" Demo demo: [Scene],
+    "solve" Solve solve: [Processes, Scene, Study],
+    "sweep" Sweep sweep: [Processes, Scene, Study],
+    "cycle" Cycle cycle: [Processes, Scene, Study],
+    "pull-off" PullOff pull_off: [Scene, Study],
+    "study" Study study: [],
+    "run" Run run: [],
+    "report" Report page: [],
+    "prepare" Prepare prepare: [Scene],
+    "surface" Surface surface: [Scene],
+    "stats" Stats stats: [Scene],
+    "leak" Leak leak: [Scene],
+    "interface" Interface interface: [Processes, Scene],
+    "contact" Contact contact: [Scene],
+    "laws" Laws laws: [],
+    "selftest" Selftest selftest: [],
+    "completions" Completions completions: [],
+}
+
+/// The names of the commands that may be part of something.
+fn commands(place: Place) -> Vec<&'static str> {
+    COMMANDS.iter().filter(|(_, places)| places.contains(&place)).map(|(name, _)| *name).collect()
+}
+
+/// The call of a command: the scene that repeats it, and the processes that run it.
+#[derive(Clone, Copy)]
+struct Call<'a> {
+    scene: &'a SceneFile,
+    processes: &'a Processes,
 }
 
 const CONVERGED: u8 = 0;
@@ -152,14 +201,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn run_on(tool: &mut clap::Command, processes: &Processes, arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match parsed(tool, arguments) {
-        Ok((Command::Run(options), _)) => match run::Arguments::read(tool, options) {
+        Ok((Command::Run(options), _)) => match run::Arguments::read(tool, *options) {
             Ok(read) => match parsed(tool, read.arguments.clone()) {
-                Ok((command, scene)) => execute(command, &scene, processes),
+                Ok((command, scene)) => execute(&command, &scene, processes),
                 Err(error) => usage(&error, processes, |argument| read.blamed(argument)),
             },
             Err(error) => agreed(processes, Err(error)),
         },
-        Ok((command, scene)) => execute(command, &scene, processes),
+        Ok((command, scene)) => execute(&command, &scene, processes),
         Err(error) => usage(&error, processes, |_| None),
     }
 }
@@ -193,32 +242,14 @@ impl Command {
     }
 }
 
-fn execute(command: Command, scene: &SceneFile, processes: &Processes) -> u8 {
-    if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_) | Command::Interface(_))
-        && let Err(error) = processes.alone("every command but solve, sweep, interface and cycle")
+fn execute(command: &Command, scene: &SceneFile, processes: &Processes) -> u8 {
+    let shared = commands(Place::Processes);
+    if !shared.contains(&command.name())
+        && let Err(error) = processes.alone(&format!("every command but {}", shared.join(", ")))
     {
         return agreed(processes, Err(error));
     }
-    let converged = match command {
-        Command::Demo(options) => demo::run(&options, processes),
-        Command::Solve(options) => solve::run(&options, scene, processes),
-        Command::Sweep(options) => sweep::run(&options, scene, processes),
-        Command::Cycle(options) => cycle::run(&options, scene, processes),
-        Command::PullOff(options) => pull_off::run(&options, scene, processes),
-        Command::Study(options) => study::run(&options, Tool::command(), processes),
-        Command::Report(options) => page::run(&options),
-        Command::Prepare(options) => prepare::run(&options, scene),
-        Command::Surface(options) => surface::run(&options, scene),
-        Command::Stats(options) => stats::run(&options, scene),
-        Command::Leak(options) => leak::run(&options, scene),
-        Command::Contact(options) => contact::run(&options, scene),
-        Command::Interface(options) => interface::run(&options, scene, processes),
-        Command::Laws(options) => laws::run(&options, scene),
-        Command::Selftest(options) => selftest::run(&options),
-        Command::Completions(options) => completions::run(&options, Tool::command()),
-        Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
-    };
-    agreed(processes, converged)
+    agreed(processes, command.run(&Call { scene, processes }))
 }
 
 /// The exit code of an outcome; one process tells of an error.

@@ -10,6 +10,7 @@ use clap::Args;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::Call;
 use crate::citation::{PAPER, PROGRAM};
 use crate::columns::spaced;
 use crate::journal::state_path;
@@ -64,7 +65,7 @@ const EXAMPLES: &str = "\
 const FINE: f64 = 288.0;
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, _: &Call<'_>) -> Outcome<bool> {
     let out = write(&options.results, options.out.as_deref(), options.force, &options.colours)?;
     say(&format!("page in {}", name(&out)));
     Ok(true)

@@ -9,11 +9,11 @@ use asperity_scene::{Chosen, CutOffKeys, Log, NewLengthsKeys, StepKeys};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
+use crate::Call;
 use crate::heights::{check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, aligned, in_options, name, say, warn};
-use crate::scene::SceneFile;
 use crate::session;
 
 /// Make a measured map into a surface that can be solved.
@@ -72,7 +72,7 @@ const EXAMPLES: &str = "\
       --resample 1024 1024 --out fine.npz";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let mut log = Log::default();

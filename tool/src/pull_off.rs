@@ -10,6 +10,7 @@ use asperity_scene::{
 use clap::Args;
 use serde_json::json;
 
+use crate::Call;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, aligned, complain, in_options};
@@ -60,7 +61,7 @@ const EXAMPLES: &str = "\
       --range 4e-3";
 
 /// Runs the command; whether the pull-off was found.
-pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let problem = &options.problem()?;
     options.results(scene).map_or(Ok(()), |results| results.check(problem.files()))?;
     let given = problem.read(scene.is_si(), processes)?;
@@ -114,7 +115,7 @@ impl Options {
         solved.look()?;
         let Solved { found, account: last } = solved;
         let mut outcome = json!(pulled_off);
-        outcome["last"] = json!(last);
+        outcome[report::LAST] = json!(last);
         let report = report::report("pull-off", outcome, &session.inputs);
 
         printing.say(&aligned(&pulled_off.rows(&last, session.units())));

@@ -12,6 +12,9 @@ use crate::scene::SceneFile;
 use crate::threads;
 use crate::units::Units;
 
+/// The key of the last state of a pull-off, and of the last row of a table.
+pub const LAST: &str = "last";
+
 /// The inputs of a command, as every report has them.
 pub fn inputs(problem: &ProblemOptions, part: &Part, units: &Units, scene: &SceneFile) -> Inputs {
     let path = |file: Option<&Path>| file.map(|path| path.to_string_lossy().into_owned());

@@ -10,8 +10,8 @@ use toml::Value;
 
 use crate::entries::{document, entries, spelled};
 use crate::outcome::Outcome;
-use crate::scene::{COMMANDS, key, section};
-use crate::study;
+use crate::scene::{key, section};
+use crate::{Call, Place, commands, study};
 
 /// Do what a scene file says.
 ///
@@ -51,6 +51,11 @@ const EXAMPLES: &str = "\
     asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
     asperity run sweep.csv.scene.toml";
 
+/// Refuses to run: a scene names another command.
+pub fn run(_: &Options, _: &Call<'_>) -> Outcome<bool> {
+    Err("a scene cannot run another one: name a command in it".into())
+}
+
 /// The arguments that a scene file stands for.
 pub struct Arguments {
     path: PathBuf,
@@ -62,8 +67,7 @@ pub struct Arguments {
 
 impl Arguments {
     /// Reads the scene; `tool` defines the commands and options that it may have.
-    pub fn read(tool: &Command, options: Options) -> Outcome<Self> {
-        let Options { scene: path, options: given } = options;
+    pub fn read(tool: &Command, Options { scene: path, options: given }: Options) -> Outcome<Self> {
         let refuse = |reason: String| Error::file(&path, reason);
         let mut table = document(&path)?;
         if let Some(section) = study::SECTIONS.iter().find(|section| table.contains_key(**section)) {
@@ -71,9 +75,10 @@ impl Arguments {
             return Err(refuse(format!("has [{section}] like a study: solve it by 'asperity study {file}'")).into());
         }
         let name = match table.remove("command") {
-            Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
+            Some(Value::String(name)) if commands(Place::Scene).contains(&name.as_str()) => name,
             Some(other) => {
-                return Err(refuse(format!("command is {other}: it must be one of {}", COMMANDS.join(", "))).into());
+                let known = commands(Place::Scene).join(", ");
+                return Err(refuse(format!("command is {other}: it must be one of {known}")).into());
             }
             None => return Err(refuse("does not say what to do: add command = \"solve\"".to_owned()).into()),
         };

@@ -44,10 +44,6 @@ const FIRST: &str = "# Written by asperity ";
 /// Options without influence on the results.
 const LEFT_OUT: [&str; 3] = ["force", "quiet", "json"];
 
-/// The commands that a scene may have.
-pub const COMMANDS: [&str; 11] =
-    ["solve", "sweep", "cycle", "pull-off", "interface", "contact", "leak", "prepare", "surface", "stats", "demo"];
-
 /// The name of the scene in a folder of results.
 pub const NAME: &str = "scene.toml";
 

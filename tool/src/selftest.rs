@@ -16,6 +16,7 @@ use ndarray::Array2;
 use serde::Serialize;
 use serde_json::json;
 
+use crate::Call;
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::printing::{Printing, bold, complain, green, yellow};
@@ -71,7 +72,7 @@ impl Check {
 }
 
 /// Runs the command; whether all checks hold.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, _: &Call<'_>) -> Outcome<bool> {
     let &Options { printing } = options;
     let start = Instant::now();
     let mut checks = known()?;

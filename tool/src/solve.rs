@@ -15,6 +15,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
 use self::beside::{BESIDE, Beside};
+use crate::Call;
 use crate::allowed::bins;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
@@ -122,7 +123,7 @@ pub fn files() -> Vec<String> {
 }
 
 /// Runs the command; whether it converged.
-pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let problem = &options.problem()?;
     let load = in_options(problem.given.load())?;
     options.check_asked(problem, load, processes)?;

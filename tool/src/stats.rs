@@ -10,13 +10,13 @@ use asperity_scene::{Chosen, LengthsKeys, Skin, statistics};
 use clap::Args;
 use serde_json::Map;
 
+use crate::Call;
 use crate::csv;
 use crate::heights::{self, check_complete, check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, aligned, warn};
 use crate::report;
-use crate::scene::SceneFile;
 use crate::session;
 use crate::units::Units;
 
@@ -54,7 +54,7 @@ const EXAMPLES: &str = "\
   asperity stats asperity-demo/heights.npy --lengths 1um --psd psd.csv";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let (path, psd) = (&options.heights, options.psd.as_deref());
     psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;

@@ -8,7 +8,7 @@ mod work;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 
-use clap::Args;
+use clap::{Args, CommandFactory};
 use serde_json::json;
 
 pub use self::cases::SECTIONS;
@@ -21,9 +21,9 @@ use crate::output::check_free;
 use crate::page;
 use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
-use crate::processes::Processes;
 use crate::report;
 use crate::warnings;
+use crate::{Call, Tool};
 
 /// Solve every combination of surfaces, laws and other options, in one table.
 ///
@@ -98,7 +98,8 @@ fn slice(text: &str) -> Result<(usize, usize), String> {
 }
 
 /// Runs the command, of a `tool` with these commands and options; whether all rows converged.
-pub fn run(options: &Options, mut tool: clap::Command, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<bool> {
+    let mut tool = Tool::command();
     tool.build();
     let study = Study::read(&mut tool, &options.study, options.out.as_deref())?;
     let &Options { printing, list, .. } = options;

@@ -11,6 +11,7 @@ use asperity_scene::{Body, BodyForm, Chosen, FormKeys, FourierKeys, GridKeys, Ro
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
+use crate::Call;
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
@@ -134,7 +135,7 @@ impl Described {
 }
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let described = described(options, scene)?;
     let &Described { grid, rough, unit, .. } = &described;
     let (form, fourier) = (described.body.form, described.fourier.as_ref().map(|(path, _)| path.as_path()));

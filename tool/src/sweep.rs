@@ -11,12 +11,11 @@ use asperity_scene::{
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
+use crate::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
 use crate::printing::in_options;
-use crate::processes::Processes;
-use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Solve a contact problem under many loads, one after the other.
@@ -71,7 +70,7 @@ const EXAMPLES: &str = "\
       --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let Options { out, fields, plot, manner, .. } = options;
     let format = options.format.map_or_else(|| format_of(out, ", or give --format"), Ok)?;
     processes.first(|| plot.check(out, manner.force))?;

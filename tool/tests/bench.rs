@@ -4,6 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use asperity_maps::io::{read_field, write_npy};
+use ndarray::Array2;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -24,8 +26,30 @@ impl Bench {
         command
     }
 
+    /// A folder with heights in `heights.npy`.
+    pub fn with(heights: &Array2<f64>) -> Self {
+        let bench = Self::new();
+        write_npy(bench.path("heights.npy"), heights).unwrap();
+        bench
+    }
+
     pub fn run(&self, arguments: &str) -> Output {
         self.command(arguments).output().unwrap()
+    }
+
+    /// Runs a command on `heights.npy`, which must end with this exit code.
+    #[track_caller]
+    pub fn ends(&self, command: &str, arguments: &str, code: i32) -> Output {
+        let output = self.run(&format!("{command} --heights heights.npy {arguments}"));
+        assert_eq!(output.status.code(), Some(code), "{arguments}: {}", text(&output.stderr));
+        output
+    }
+
+    /// Solves with all results in `out`, must end with this exit code, and returns the report.
+    #[track_caller]
+    pub fn solve(&self, arguments: &str, out: &str, code: i32) -> Value {
+        self.ends("solve", &format!("{arguments} --out {out}"), code);
+        self.report(out)
     }
 
     /// Runs what must succeed in silence on standard error, and returns what it prints.
@@ -78,6 +102,10 @@ impl Bench {
 
     pub fn bytes(&self, name: &str) -> Vec<u8> {
         fs::read(self.path(name)).unwrap()
+    }
+
+    pub fn field(&self, name: &str) -> Array2<f64> {
+        read_field(self.path(name)).unwrap()
     }
 
     pub fn read(&self, name: &str) -> String {

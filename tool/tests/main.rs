@@ -1,39 +1,39 @@
 //! The command-line tool, end to end, with the files that it reads and the documentation that tells how to run it.
 
-mod accuracy_tool;
-mod after_tool;
+mod accuracy;
+mod after;
 mod areas;
 mod bench;
-mod body_tool;
-mod branch_tool;
+mod body;
+mod branch;
 
 #[cfg(unix)]
 mod commands;
-mod contact_tool;
-mod fraction_tool;
-mod free_tool;
-mod hardness_tool;
+mod contact;
+mod fraction;
+mod free;
+mod hardness;
 mod hints;
 mod hostile;
-mod interface_tool;
+mod interface;
 #[cfg(unix)]
 mod interruption;
-mod laws_tool;
-mod leak_tool;
+mod laws;
+mod leak;
 #[cfg(target_os = "linux")]
 mod memory;
-mod mirror_tool;
-mod pair_tool;
+mod mirror;
+mod pair;
 mod pictures;
 mod places;
 mod prepare;
 mod promised;
-mod pull_off_tool;
-mod scene_tool;
+mod pull_off;
+mod scene;
 mod selftest;
+mod solve;
 mod study;
-mod surface_tool;
-mod sweep_tool;
-mod tool;
-mod units_tool;
+mod surface;
+mod sweep;
+mod units;
 mod warnings;

@@ -471,7 +471,7 @@ fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
         |what: &str| base.replace("sweep", "solve").replace("[loads]\nmean-gaps", &format!("{what}\n[load]\nmean-gap"));
     for (study, parts) in [
         ("[loads]".to_owned(), &["study.toml", "add command"][..]),
-        (base.replace("sweep", "stats"), &["it must be one of sweep, cycle, solve, pull-off"]),
+        (base.replace("sweep", "stats"), &["it must be one of solve, sweep, cycle, pull-off"]),
         (
             base.replace("sweep", "solve").replace("loads", "load"),
             &["mean-gaps is no option", "did you mean mean-gap?"],

@@ -1,13 +1,19 @@
-//! The account of a solve, with the keys of its report.
+//! The answer to a solve: the list of its numbers, and what shows them in which order.
+//!
+//! A number stands once, in the record of its noun, with its meaning, its measure, and where it is found: the keys of
+//! reports and the columns of tables come from there, and the types and attributes in Python and the tables of the
+//! documents. The lists below [`Account`] say which tables, rows of summaries and headings of pages have it.
 
 pub mod contact;
-mod dimensions;
 mod displacement;
 mod entries;
 mod findings;
 mod found;
+mod inputs;
 pub mod interface;
 mod leaked;
+mod look;
+mod numbers;
 mod pulled_off;
 pub(crate) mod row;
 mod rows;
@@ -16,43 +22,42 @@ mod slopes;
 pub mod statistics;
 pub mod theories;
 mod warnings;
+mod words;
 
-use asperity::contact::{ContactStatistics, Patch};
-use asperity::solver::{Criterion, Method};
-use asperity::{Branch, Control, Real, Report, Result, Solution, Status};
-use ndarray::ArrayView2;
+use asperity::contact::Patch;
+use asperity::solver::Criterion;
+use asperity::{Branch, Control, Real, Report, Status};
+use asperity_flow::Axis;
 use serde::Serialize;
-use serde_json::Value;
 
-pub use self::dimensions::{dimension_of, dimension_of_key};
-pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step};
+pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step, StepNames};
 pub use self::findings::{Conducted, Findings};
 pub use self::found::{Found, Sight, check_finite};
 pub(crate) use self::found::{Waves, warnings_of};
+pub use self::inputs::{InputNames, Inputs};
 pub use self::leaked::{Along, Enclosed, Leaked, Narrowest, Transmissivity};
-pub use self::pulled_off::PulledOff;
+pub(crate) use self::numbers::is_told;
+pub use self::numbers::{Measure, Number, dimension_of_key};
+pub use self::pulled_off::{PulledOff, PulledOffNames};
 pub(crate) use self::row::INPUTS;
 pub use self::row::Row;
-pub use self::rows::{corrected, rows};
+use self::rows::Line::{self, Alone, Of, OfAdhesion, Words};
+pub use self::rows::rows;
 pub(crate) use self::sentences::{estimate, untold};
 pub use self::sentences::{shortfalls, unbalanced};
 pub use self::slopes::Slopes;
 pub(crate) use self::warnings::warnings_of_input;
+pub use self::words::corrected;
 use crate::key::{
-    Adhesion, ENERGY_PER_AREA, Elastic, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Precision,
-    Scene, Told, Units, record,
+    ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Told, record, worded,
 };
-
-/// The approach that a load holds.
-fn held(control: Control) -> Option<f64> {
-    if let Control::Approach(approach) = control { Some(approach) } else { None }
-}
+use crate::numbers::plain;
 
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
     /// reports in Python, in their order; numbers are in the units of the input, energies per area.
     #[derive(Clone, Debug, Serialize)]
-    Account of <T: Real> (
+    Account named AccountNames of <T: Real> (
         command: &'static str,
         found: &Found<T>,
         report: &Report,
@@ -61,126 +66,132 @@ record! {
         strongest: Option<(usize, usize)>,
         warnings: Vec<Told>,
     ) {
-        /// The command.
+        /// Command.
         command: &'static str = command,
-        /// The status.
+        /// How the solve ended: `converged`, `stalled`, `iteration-limit`, `detached` or `stopped`.
         status: Status = report.status,
-        /// The branch of the start, if it has one.
+        /// With adhesion, the branch of the start.
         branch: Option<Branch> = report.branch,
-        /// The equilibrium on the other branch, if both were asked for.
+        /// Equilibrium on the other branch, if both were asked for.
         other_branch: Option<OtherBranch> = found.other_branch.clone(),
-        /// The certified relative error.
-        relative_error: f64 = report.relative_error,
-        /// The error of the load.
-        load_error: f64 = report.load_error,
-        /// The measure that was compared with the tolerance.
+        /// Certified relative error in the energy norm.
+        relative_error: f64 as Error = report.relative_error,
+        /// Relative error of the load or mean gap that is held.
+        load_error: f64 as Error = report.load_error,
+        /// Quantity compared with the tolerance: `energy-norm`, the certified error, or `complementarity`.
         criterion: Criterion = report.criterion,
-        /// The number of steps.
+        /// Number of iterations; with nested grids, on the finest one.
         iterations: usize = report.iterations,
-        /// The number of operator applications.
+        /// Number of operator applications, each a forward and an inverse transform; with nested grids, on the finest one.
         operator_applications: usize = report.operator_applications,
-        /// The nested grids, the finest last, if they were used.
+        /// Nested grids, the finest last, if they were used.
         levels: Option<Vec<GridLevel>> = found.levels.as_ref().map(|all| all.iter().map(GridLevel::of).collect()),
-        /// The operator applications on all of them, in units of one on the finest.
+        /// Operator applications on all nested grids, in units of one on the finest.
         equivalent_applications: Option<f64> = found.equivalent_applications,
-        /// The estimated errors of the finest of nested grids, known after a look.
+        /// Estimated errors of the finest of nested grids.
         grid_error: Option<GridErrors> = None,
-        /// The reason why the error of the area, or of the quantity that has an accuracy, is not told, after a look.
+        /// Why `grid_error` has no error of the area, or of the quantity that has an accuracy.
         grid_error_reason: Option<String> = None,
-        /// The end of a solve to an accuracy.
+        /// End of a solve to an accuracy.
         accuracy: Option<Reached> = found.accuracy,
-        /// The search for the load of a contact fraction.
+        /// Search for the load of a contact fraction.
         search: Option<Search> = found.search,
-        /// The mean gap.
+        /// Mean gap.
         mean_gap: f64 [LENGTH] = report.mean_gap,
-        /// The mean external pressure.
+        /// Mean external pressure p̄, the normal force over the nominal area, compression positive.
         mean_pressure: f64 [PRESSURE] = report.mean_pressure,
-        /// The normal force.
+        /// Normal force F = p̄·Lx·Ly, compression positive.
         normal_force: f64 [FORCE] = report.normal_force,
-        /// The approach, with a free boundary, and where one is held over a layer or a coating.
+        /// With a free boundary, and where one is held over a layer or a coating, how far the bodies have moved towards
+        /// each other since they would first touch undeformed.
         approach: Option<f64> [LENGTH] = report.approach.or(held(report.control)),
-        /// The stiffness of a spring, if the load is one.
+        /// Stiffness of a spring, if the load is one.
         spring_stiffness: Option<f64> [FORCE_PER_LENGTH] = stiffness(report.control),
-        /// The mean pressure that the fields carry.
+        /// Load of the fields: mean contact pressure less mean adhesive traction.
         net_pressure: f64 [PRESSURE] = report.net_pressure,
-        /// The mean contact pressure.
+        /// Mean contact pressure.
         mean_contact_pressure: f64 [PRESSURE] = report.mean_contact_pressure,
-        /// The share of the nodes in contact.
-        contact_fraction: f64 = report.contact_fraction,
-        /// The number of nodes in contact.
+        /// Share of the nodes in contact, absent nodes not counted.
+        contact_fraction: f64 as Share = report.contact_fraction,
+        /// Number of nodes in contact.
         contact_nodes: usize = report.contact_nodes,
-        /// The number of absent nodes.
+        /// Number of absent nodes, at which nothing faces the half-space.
         absent_nodes: usize = report.absent_nodes,
-        /// The largest traction at the edge of a free boundary over the largest anywhere.
-        edge_traction: Option<f64> = report.edge_traction,
-        /// The contact area by the adhesive energy, of a law that has the range of the grid.
-        adhesive_contact_fraction: Option<f64> = report.adhesive_contact_fraction,
-        /// That of the limit of no range, less the process zone at the edge.
-        jkr_contact_fraction: Option<f64> = found.sight.jkr_contact_fraction,
-        /// The contact area within its edge between the nodes, known after a look.
-        corrected_contact_fraction: Option<f64> = None,
-        /// The length of the edge, known after a look.
-        perimeter: Option<f64> [LENGTH] = None,
-        /// The share of the nodes with a contact pressure, known after a look.
-        repulsive_fraction: Option<f64> = None,
-        /// The share of the nodes that attract without contact, known after a look.
-        attractive_fraction: Option<f64> = None,
-        /// The contact by works of adhesion, known after a look.
+        /// With a free boundary, the largest traction on the outermost nodes, as a share of the largest anywhere. Unless the
+        /// body ends there, a value above 0.001 means that the map of the heights is too small.
+        edge_traction: Option<f64> as Share = report.edge_traction,
+        /// With `law` `jkr`, the contact fraction by the adhesive energy, −E_adh/w, which is too large.
+        adhesive_contact_fraction: Option<f64> as Share = report.adhesive_contact_fraction,
+        /// With `law` `jkr`, the contact fraction by the adhesive energy less the process zone at the edges: the area of the
+        /// theory of JKR, which is the one to report with `jkr`.
+        jkr_contact_fraction: Option<f64> as Share = found.sight.jkr_contact_fraction,
+        /// Share of the area within the contact edge, which is located between the nodes. On rough surfaces it is some 5 to
+        /// 12 % too large if the shortest waves have 2 nodes, and 2 to 4 % with 3.
+        corrected_contact_fraction: f64 as Share = f64::NAN,
+        /// Length of the contact edge along the sides of the cells; on a line the number of its ends.
+        perimeter: f64 [LENGTH] = f64::NAN,
+        /// Share of the nodes that push.
+        repulsive_fraction: f64 as Share = f64::NAN,
+        /// Share of the nodes that pull without contact.
+        attractive_fraction: f64 as Share = f64::NAN,
+        /// Where the work of adhesion has at most 16 values, the contact on the nodes of each.
         patches: Option<Vec<Patch>> = None,
-        /// The smallest gap.
+        /// Least gap.
         min_gap: f64 [LENGTH] = report.min_gap,
-        /// The least (most tensile) elastic pressure, known after a look.
-        min_pressure: Option<f64> [PRESSURE] = None,
-        /// The greatest elastic pressure, known after a look.
-        max_pressure: Option<f64> [PRESSURE] = None,
+        /// Least (most tensile) elastic pressure.
+        min_pressure: f64 [PRESSURE] = f64::NAN,
+        /// Greatest elastic pressure.
+        max_pressure: f64 [PRESSURE] = f64::NAN,
         /// How far the pressure is below zero without adhesion, as a share of the greatest one, after a look.
         #[serde(skip)]
         pressure_residue: f64 = 0.0,
-        /// The elastic energy.
+        /// Elastic energy per area.
         elastic_energy: f64 [ENERGY_PER_AREA] = report.elastic_energy,
-        /// The adhesive energy.
+        /// Adhesive energy per area.
         adhesive_energy: f64 [ENERGY_PER_AREA] = report.adhesive_energy,
-        /// The share of the nodes that have yielded, at a hardness.
-        plastic_fraction: Option<f64> = report.plastic.map(|plastic| plastic.fraction),
-        /// The greatest plastic depth.
+        /// With a hardness, the share of the nodes that have yielded.
+        plastic_fraction: Option<f64> as Share = report.plastic.map(|plastic| plastic.fraction),
+        /// With a hardness, the greatest plastic depth.
         plastic_depth_max: Option<f64> [LENGTH] = report.plastic.map(|plastic| plastic.depth_max),
-        /// The mean plastic depth.
+        /// With a hardness, the mean plastic depth.
         plastic_depth_mean: Option<f64> [LENGTH] = report.plastic.map(|plastic| plastic.depth_mean),
-        /// The energy that yielding has dissipated.
+        /// With a hardness, the energy per area that yielding has dissipated.
         plastic_energy: Option<f64> [ENERGY_PER_AREA] = report.plastic.map(|plastic| plastic.energy),
-        /// The stability, if it was asked for.
+        /// Stability, if it was asked for.
         stability: Option<Steadiness> = found.stability,
-        /// The contact stiffness, a pressure per length, if it was asked for.
+        /// Contact stiffness dp̄/dδ, if it was asked for: how much the mean pressure grows as the bodies approach each other,
+        /// or as the mean gap falls. It equals the stiffness of a flat punch with the outline of the contact. Infinite where
+        /// all nodes are in contact; with adhesion it may be negative.
         contact_stiffness: Option<f64> [PRESSURE_PER_LENGTH] = found.stiffness.map(|found| found.pressure_per_length),
-        /// The relative error of the contact stiffness, the estimated one of the grid included; none where that is unknown.
-        stiffness_error: Option<f64> = found.stiffness.and_then(|found| found.error()),
-        /// The normal stiffness, a force per length, with the contact stiffness.
+        /// Relative error of the contact stiffness, with the estimated error of the grid; null where that is unknown.
+        stiffness_error: Option<f64> as Error = found.stiffness.and_then(|found| found.error()),
+        /// Normal stiffness dF/dδ, with the contact stiffness.
         normal_stiffness: Option<f64> [FORCE_PER_LENGTH] = found.stiffness.map(|found| share * found.force_per_length),
-        /// The conductance per area, if it was asked for.
+        /// Conductance, if it was asked for.
         conductance: Option<Conducted> = found.after.conductance,
-        /// Whether open nodes connect the sides, if the percolation was asked for.
+        /// Whether open nodes connect the sides, along `x` and `y`, if the percolation was asked for.
         percolates: Option<Along<bool>> = found.after.percolates,
-        /// The widest passages, with the percolation.
+        /// Narrowest place of the widest passage along `x` and `y`, with the percolation.
         constriction: Option<Along<Option<Narrowest>>> = found.after.constriction,
-        /// The transmissivity, if it was asked for.
+        /// Transmissivity along `x` and `y`, if it was asked for.
         transmissivity: Option<Along<Transmissivity>> = found.after.transmissivity,
-        /// The unstable equilibria that were left, if they were to be.
+        /// Unstable equilibria that were left, if they were to be.
         departures: Option<Vec<Left>> = found.departures.clone(),
-        /// The traction in contact, of a law that has the range of the grid.
+        /// With `law` `jkr`, the traction in contact of the grid, 2w/ρ.
         peak_traction: Option<f64> [PRESSURE] = report.peak_traction,
-        /// The resolution measure μ_ρ.
+        /// Resolution measure √(wΔx/E*)/ρ.
         mu_rho: f64 = report.mu_rho,
-        /// The node with the largest work of adhesion, where that varies.
+        /// Where the work of adhesion varies, the node (ix, iy) with the largest.
         mu_rho_node: Option<(usize, usize)> = strongest,
-        /// Whether the grid does not resolve the adhesion.
+        /// Whether the resolution measure exceeds 0.5: the grid does not resolve the adhesion.
         under_resolved: bool = report.under_resolved,
-        /// The warnings.
+        /// Warnings.
         warnings: Vec<Told> = warnings,
-        /// The time of the solve in seconds.
-        seconds: f64 = found.seconds,
-        /// The kind of the load.
+        /// Time of the solve in seconds, without files and pictures.
+        seconds: f64 as Seconds = found.seconds,
+        /// Quantity that is held, for example `mean-gap`.
         control: &'static str = report.control.name(),
-        /// The value of the load.
+        /// Value that is held; for a spring its position.
         control_value: f64 = report.control.value(),
         /// The inputs.
         #[serde(flatten)]
@@ -191,146 +202,111 @@ record! {
     }
 }
 
+/// The numbers that a solution in Python has as attributes.
+pub const ATTRIBUTES: &str = "status boundary relative_error iterations operator_applications mean_gap mean_pressure normal_force \
+                              approach mean_contact_pressure contact_fraction absent_nodes edge_traction elastic_energy \
+                              adhesive_energy contact_stiffness normal_stiffness";
+
+/// The columns of a state in a table.
+pub(crate) const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
+                                edge_traction contact_fraction corrected_contact_fraction perimeter clusters largest_cluster \
+                                repulsive_fraction attractive_fraction elastic_energy adhesive_energy min_gap";
+pub(crate) const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
+/// The contact by the adhesive energy, and in the limit of no range, of a law that has the range of the grid.
+pub(crate) const LIMIT: &str = "adhesive_contact_fraction jkr_contact_fraction";
+pub(crate) const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
+pub(crate) const STIFFNESS: &str = "contact_stiffness normal_stiffness";
+
+/// The numbers of reports and tables on a page, in the order in which one asks for them, by headings. Others are of the
+/// surface and the settings.
+pub const GROUPS: [(&str, &str); 8] = [
+    (
+        "Pull-off",
+        "pull_off_pressure pull_off_force limit_pressure limit_force limit_error limit_reason to_report lost_pressure \
+         preload solves",
+    ),
+    (
+        "Load",
+        "case leg direction control control_value mean_pressure normal_force net_pressure spring_stiffness branch \
+         wanted_contact_fraction reached search",
+    ),
+    (
+        "Contact",
+        "contact_fraction jkr_contact_fraction corrected_contact_fraction adhesive_contact_fraction contact_nodes \
+         absent_nodes perimeter clusters largest_cluster repulsive_fraction attractive_fraction plastic_fraction patches \
+         contact_stiffness stiffness_error normal_stiffness",
+    ),
+    ("Gap", "mean_gap min_gap approach plastic_depth_max plastic_depth_mean"),
+    ("Pressures", "hardness mean_contact_pressure min_pressure max_pressure peak_traction edge_traction"),
+    (
+        "Energies",
+        "elastic_energy adhesive_energy plastic_energy work dissipated imbalance work_error event energy_drop stability \
+         departures other_branch",
+    ),
+    ("Error", "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved"),
+    ("Cost", "iterations operator_applications equivalent_applications seconds"),
+];
+
+/// The numbers of attraction, which say nothing of surfaces that do not adhere.
+pub const OF_ADHESION: &str = "net_pressure min_pressure repulsive_fraction attractive_fraction adhesive_energy mu_rho \
+                               mu_rho_node under_resolved";
+
+/// The rows of a summary, in their order: their labels, and what they tell.
+pub(crate) const SUMMARY: &[(&str, Line)] = &[
+    ("part of the mirrored map", Words(words::part)),
+    ("side lengths", Words(words::sides)),
+    ("body", Words(|s, units, _| s.inputs.elastic.in_words(units))),
+    ("contact", Of("contact_fraction")),
+    ("corrected for its edge", Words(words::corrected_area)),
+    ("by JKR", Of("jkr_contact_fraction")),
+    ("nodes in contact", Words(words::nodes_in_contact)),
+    ("", Alone(words::patches)),
+    ("wanted", Words(words::wanted)),
+    ("mean gap", Of("mean_gap")),
+    ("mean pressure", Of("mean_pressure")),
+    ("normal force", Of("normal_force")),
+    ("approach", Of("approach")),
+    ("traction at the edge", Of("edge_traction")),
+    ("net pressure", Of("net_pressure")),
+    ("mean contact pressure", Of("mean_contact_pressure")),
+    ("least pressure", Words(words::least_pressure)),
+    ("greatest pressure", Of("max_pressure")),
+    ("elastic energy per area", Of("elastic_energy")),
+    ("adhesive energy per area", OfAdhesion("adhesive_energy")),
+    ("range of the grid", Words(words::range_of_the_grid)),
+    ("mu_rho", OfAdhesion("mu_rho")),
+    ("yielded", Of("plastic_fraction")),
+    ("greatest plastic depth", Of("plastic_depth_max")),
+    ("mean plastic depth", Of("plastic_depth_mean")),
+    ("plastic work per area", Of("plastic_energy")),
+    ("contact stiffness", Words(words::stiffness)),
+    ("conductance per area", Words(words::conductance)),
+    ("gap along x", Words(|s, units, _| words::narrowest(s, Axis::X, units))),
+    ("transmissivity along x", Words(|s, units, _| words::transmissivity(s, Axis::X, units))),
+    ("gap along y", Words(|s, units, _| words::narrowest(s, Axis::Y, units))),
+    ("transmissivity along y", Words(|s, units, _| words::transmissivity(s, Axis::Y, units))),
+    ("branch", OfAdhesion("branch")),
+    ("", Alone(words::other_branch)),
+    ("certified error", Words(|s, _, _| Some(format!("{:.1e}", s.relative_error)))),
+    ("stability", Words(words::stability)),
+    ("smallest eigenvalue", Words(|s, _, _| Some(plain(s.stability?.eigenvalue)))),
+    ("its lower bound", Words(|s, _, _| Some(plain(s.stability?.lower_bound)))),
+    ("energy drop in leaving", Words(words::energy_drop)),
+    ("error bound", Words(words::error_bound)),
+    ("iterations", Of("iterations")),
+    ("operator applications", Of("operator_applications")),
+    ("with coarser grids", Words(|s, _, _| Some(format!("{:.1}", s.equivalent_applications?)))),
+    ("error of the grid", Words(|s, _, skin| s.levels.as_ref().map(|_| worded(&estimate(s), skin)))),
+    ("time", Of("seconds")),
+    ("status", Of("status")),
+];
+
+/// The approach that a load holds.
+fn held(control: Control) -> Option<f64> {
+    if let Control::Approach(approach) = control { Some(approach) } else { None }
+}
+
 /// The stiffness of a spring, if the load is one.
 pub(crate) fn stiffness(control: Control) -> Option<f64> {
     if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
-}
-
-impl<T: Real> Found<T> {
-    /// The account of the solve by a command, of which [`Sight::look`] adds the keys that are found of the fields.
-    ///
-    /// # Errors
-    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-    pub fn account(
-        &self,
-        command: &'static str,
-        inputs: &Inputs,
-        strongest: Option<(usize, usize)>,
-        warnings: Vec<Told>,
-    ) -> Result<Account> {
-        let (original, part) = (self.sight.original, self.part()?);
-        let (grid, report) = (&part.grid, &part.report);
-        let share = original.map_or(1.0, |original| original.share());
-        let inputs = Inputs {
-            solved_shape: original.map(|_| self.solution.grid.shape()),
-            shape: grid.shape(),
-            lengths: grid.lengths(),
-            tolerance: report.tolerance,
-            adhesion: Adhesion {
-                range: inputs.adhesion.range.or(report.range),
-                hardness: report.plastic.map(|plastic| plastic.hardness),
-                ..inputs.adhesion.clone()
-            },
-            ..inputs.clone()
-        };
-        let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);
-        self.sight.tell(&mut account);
-        Ok(account)
-    }
-}
-
-impl<T: Real> Sight<T> {
-    /// Looks at the fields of the solution, as [`Sight::look`].
-    ///
-    /// # Errors
-    /// Those of [`Sight::look`].
-    pub fn look_at(&mut self, account: &mut Account, solution: &Solution<T>) -> Result<ContactStatistics> {
-        let Solution { gap, pressure, contact_pressure, .. } = solution;
-        self.look(account, [gap.view(), pressure.view(), contact_pressure.view()])
-    }
-
-    /// Looks at gap, pressure and contact pressure: fills in the keys of the account that are found of them, and
-    /// returns the statistics of the contact. All processes that share the grid have to look.
-    ///
-    /// # Errors
-    /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
-    pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
-        let (found, pressures) = self.seen(fields)?;
-        if let Some((waves, levels)) = self.open.take() {
-            self.estimate(&levels, waves.nodes(self.report.boundary));
-        }
-        self.tell(account);
-        account.corrected_contact_fraction = Some(found.corrected_contact_fraction);
-        account.perimeter = Some(found.perimeter);
-        account.repulsive_fraction = Some(found.repulsive_fraction);
-        account.attractive_fraction = Some(found.attractive_fraction);
-        account.patches = Some(found.patches.clone());
-        account.min_pressure = Some(pressures.least);
-        account.max_pressure = Some(pressures.greatest);
-        account.pressure_residue = pressures.residue;
-        Ok(found)
-    }
-
-    /// Puts the errors that are known into an account.
-    fn tell(&self, account: &mut Account) {
-        if let Some((errors, nodes_per_wave)) = self.errors {
-            (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
-            let is_told = errors.in_words(account.accuracy.map(|reached| reached.of)).is_some();
-            account.grid_error_reason = (!is_told || errors.area.is_none()).then(|| untold(account));
-        }
-    }
-}
-
-record! {
-    /// The inputs of a command, by their names in every report.
-    #[derive(Clone, Debug, Serialize)]
-    Inputs of (scene: &Scene, shape: (usize, usize), lengths: (f64, f64), threads: usize) {
-        /// The file of the heights.
-        heights: Option<String> = None,
-        /// The file of the heights on the other side, or a word for them, if there are any.
-        against: Option<String> = None,
-        /// The shift of these along both axes.
-        shift: Option<(f64, f64)> = None,
-        /// The file of the gap from which the solve started, or a word for it.
-        initial_gap: Option<String> = None,
-        /// The part of a mirrored map that results are of.
-        part: Option<String> = None,
-        /// The nodes that are solved, if results are of fewer.
-        solved_shape: Option<(usize, usize)> = None,
-        /// The nodes of the results.
-        shape: (usize, usize) = shape,
-        /// The side lengths of the results.
-        lengths: (f64, f64) = lengths,
-        /// The rms slopes of the surface.
-        #[serde(flatten)]
-        slopes: Slopes = Slopes::default(),
-        /// The unit of lengths, if it is known.
-        length_unit: Option<String> = None,
-        /// The unit of pressures, if it is known.
-        pressure_unit: Option<String> = None,
-        /// The quantities as they were typed, if they have units.
-        given: Option<Value> = None,
-        /// The elastic body.
-        #[serde(flatten)]
-        elastic: Elastic = scene.elastic.clone(),
-        /// The adhesion and the wall.
-        #[serde(flatten)]
-        adhesion: Adhesion = scene.adhesion.clone(),
-        /// The method.
-        method: Method = scene.method,
-        /// The precision.
-        precision: Precision = scene.precision,
-        /// The tolerance to which the solve was held.
-        tolerance: f64 = scene.tolerance(),
-        /// The iterations after which to give up.
-        max_iterations: usize = scene.settings().max_iterations,
-        /// The number of threads.
-        threads: usize = threads,
-        /// The version of the program.
-        version: &'static str = env!("CARGO_PKG_VERSION"),
-    }
-}
-
-impl Scene {
-    /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
-    pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
-        Inputs::of(self, shape, lengths, threads)
-    }
-}
-
-impl Inputs {
-    /// The units of the numbers, as far as they are known.
-    pub fn units(&self) -> Units {
-        Units { length: self.length_unit.clone(), pressure: self.pressure_unit.clone(), force: None }
-    }
 }

@@ -162,7 +162,7 @@ impl<T: Scalar> Session<T> {
     /// [`Error::Unsuited`](asperity::Error::Unsuited) after the first solve.
     pub fn with_slopes(mut self) -> Result<Self> {
         if is_whole(&self.grid) {
-            self.inputs.slopes = Slopes::of(&*self.surface()?, self.scene.elastic.boundary);
+            self.inputs.slopes = Slopes::on(&*self.surface()?, self.scene.elastic.boundary);
         }
         Ok(self)
     }

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Solution};
 use serde_json::{Map, Value};
 
-use crate::account::Row;
+use crate::account::{Row, Step};
 use crate::key::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
@@ -133,9 +133,13 @@ impl Table {
         }
         let mut rows = text.lines().rev().map(|line| table.opening.format.parsed(&table.opening.names, line));
         let [last, before] = [rows.next(), rows.next()].map(Option::unwrap_or_default);
-        table.had_event = !last["event"].is_null();
+        table.had_event = !last[Step::NAMES.event].is_null();
         // a run that was killed may have left them
-        if table.opening.loads.is_none() && !table.had_event && before["event"].is_null() && table.journal.is_some() {
+        if table.opening.loads.is_none()
+            && !table.had_event
+            && before[Step::NAMES.event].is_null()
+            && table.journal.is_some()
+        {
             table.kept().forget(table.rows - 1);
         }
         Ok((table, Some(place)))

@@ -1,5 +1,6 @@
 //! A problem is posed and solved, and its account has the keys of every report.
 
+use std::collections::HashSet;
 use std::ops::ControlFlow;
 
 use asperity::accuracy::Quantity;
@@ -11,42 +12,20 @@ use asperity_scene::processes::Processes;
 use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, After, Asked, Boundary, Elastic, Found, Goal, Input, Precision, Row, Scene, Session, Skin,
-    Solved, TableFile, Way, check_finite, rows, shortfalls, worded,
+    Account, Adhesion, After, Asked, Boundary, Elastic, Found, Goal, GridErrors, GridLevel, Input, Inputs, Number,
+    OtherBranch, Precision, Reached, Row, Scene, Search, Session, Skin, Slopes, Solved, Steadiness, TableFile, Way,
+    check_finite, rows, shortfalls, worded,
 };
 use ndarray::Array2;
 use serde_json::{Value, json};
-
-/// The keys of a report, in their order.
-const OUTCOME: &str = "\
-    command status branch other_branch relative_error load_error criterion iterations operator_applications \
-    levels equivalent_applications grid_error grid_error_reason accuracy search mean_gap mean_pressure normal_force approach \
-    spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
-    edge_traction adhesive_contact_fraction jkr_contact_fraction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
-    min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \
-    plastic_depth_mean plastic_energy stability contact_stiffness stiffness_error normal_stiffness \
-    conductance percolates constriction transmissivity \
-    departures peak_traction mu_rho mu_rho_node under_resolved warnings seconds control control_value";
-const INPUTS: &str = "\
-    heights against shift initial_gap part solved_shape shape lengths rms_slope rms_slope_differences length_unit pressure_unit given boundary modulus \
-    poisson layer base coating coating_modulus coating_poisson plate symbol against_modulus law work_of_adhesion range exponent \
-    hamaker law_table cut_off work_of_adhesion_map wall wall_stiffness hardness hardness_map method precision tolerance max_iterations \
-    threads version";
-const OTHER_BRANCH: &str = "\
-    branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
-    elastic_energy adhesive_energy distance same";
-const LEVEL: &str = "\
-    shape status iterations operator_applications relative_error mean_gap mean_pressure mean_contact_pressure \
-    elastic_energy contact_fraction corrected_contact_fraction jkr_contact_fraction contact_stiffness";
-const STABILITY: &str = "\
-    verdict eigenvalue residual lower_bound error_bound smoothed operator_applications";
 
 fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
-fn words(text: &str) -> Vec<&str> {
-    text.split_whitespace().collect()
+/// The names of the numbers that a report has.
+fn names(lists: &[&[Number]]) -> Vec<&'static str> {
+    lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_told).map(|number| number.name).collect()
 }
 
 fn scene() -> Scene {
@@ -117,9 +96,11 @@ fn an_account_has_the_keys_of_a_report() {
     };
     let mut solved = solved(&asked);
     let report = json!(solved.account);
-    assert_eq!(keys(&report), [words(OUTCOME), words(INPUTS)].concat());
-    assert_eq!(keys(&report["other_branch"]), words(OTHER_BRANCH));
-    assert_eq!(keys(&report["stability"]), words(STABILITY));
+    let inputs = [Inputs::NUMBERS, Slopes::NUMBERS, Elastic::NUMBERS, Adhesion::NUMBERS];
+    let expected = names(&[&[Account::NUMBERS][..], &inputs].concat());
+    assert_eq!(keys(&report).into_iter().collect::<HashSet<_>>(), expected.into_iter().collect());
+    assert_eq!(keys(&report["other_branch"]), names(&[OtherBranch::NUMBERS]));
+    assert_eq!(keys(&report["stability"]), names(&[Steadiness::NUMBERS]));
     assert_eq!((&report["shape"], &report["tolerance"]), (&json!([32, 32]), &json!(1e-6)));
     assert!(report["contact_stiffness"].is_f64() && report["departures"] == json!([]));
 
@@ -127,7 +108,7 @@ fn an_account_has_the_keys_of_a_report() {
     let open = ["corrected_contact_fraction", "perimeter", "patches", "min_pressure", "max_pressure"];
     assert!(open.iter().all(|key| report[key].is_null()));
     let statistics = solved.look().unwrap();
-    assert_eq!(solved.account.corrected_contact_fraction, Some(statistics.corrected_contact_fraction));
+    assert_eq!(solved.account.corrected_contact_fraction, statistics.corrected_contact_fraction);
     assert!(open.iter().all(|key| !json!(solved.account)[key].is_null()));
 }
 
@@ -138,13 +119,13 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
     assert!(nested.account.grid_error.is_none());
     nested.look().unwrap();
     let report = json!(nested.account);
-    assert_eq!(keys(&report["levels"][0]), words(LEVEL));
-    assert_eq!(keys(&report["grid_error"]), ["area", "gap", "approach", "pressure"]);
+    assert_eq!(keys(&report["levels"][0]), names(&[GridLevel::NUMBERS]));
+    assert_eq!(keys(&report["grid_error"]), names(&[GridErrors::NUMBERS]));
 
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
     let Solved { found, account } = solved(&Asked { goal: Some(goal), ..under });
     let report = json!(account);
-    assert_eq!(keys(&report["accuracy"]), ["wanted", "of", "reached"]);
+    assert_eq!(keys(&report["accuracy"]), names(&[Reached::NUMBERS]));
     assert_eq!(keys(&report["grid_error"]["area"]), ["relative", "order", "rough"]);
     let shape = found.refined.unwrap().grid().shape();
     assert_eq!(report["shape"], json!([shape.0, shape.1]));
@@ -154,8 +135,7 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
 fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
     let asked = Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) };
     let Solved { account, .. } = solved(&asked);
-    let wanted = ["wanted", "reached", "below", "above", "solves", "operator_applications"];
-    assert_eq!(keys(&json!(account)["search"]), wanted);
+    assert_eq!(keys(&json!(account)["search"]), names(&[Search::NUMBERS]));
 
     let asked = Asked { stability: true, after: stiff(), ..Asked::under(Control::MeanPressure(0.01)) };
     let solved = posed().solve(&asked, None, &mut |_, _, _| ControlFlow::Break(())).unwrap();

@@ -1,10 +1,14 @@
 //! The keys of scenes where Python and the documents have them: written anew where `UPDATE` is set.
 
+mod written;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity_scene::{KEYWORDS, Key, Skin, Values, worded};
+
+use self::written::check_written;
 
 /// The type of a keyword.
 fn annotation(key: &Key) -> String {
@@ -86,15 +90,7 @@ fn document() -> String {
 
 #[test]
 fn keywords_of_python_and_the_table_of_the_documents_are_the_keys() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    for (file, text) in [("python/tests/keys.py", python()), ("docs/program/keys.md", document())] {
-        let path = root.join(file);
-        if std::env::var_os("UPDATE").is_some() {
-            std::fs::write(&path, &text).expect("a file that can be written");
-        }
-        let found = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(found == text, "{file} differs from the keys: UPDATE=1 cargo test -p asperity-scene --test keys");
-    }
+    check_written("keys", [("python/tests/keys.py", python()), ("docs/program/keys.md", document())]);
 }
 
 /// The names of keys that no report has stand in `crates/scene/src/key` alone: faces ask for them by what they are.

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import os
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _asperity
 from ..common.optional import package
-from ..common.types import Boundary, Quantity, Report, Status
+from ..common.types import Boundary, Quantity
 from ..common.units import in_si, in_unit
 from ..common.words import suggests
 from ..maps.arrays import read_field
@@ -26,6 +26,7 @@ from .findings import (
     Plan,
     PressureDistribution,
 )
+from .numbers import Numbers, Report
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -39,7 +40,7 @@ FIELDS = ("gap", "pressure", "contact_pressure")
 OTHERS = ("plastic_depth", "mode", "displacement", "against_displacement", "heights")
 
 
-class Solution:
+class Solution(Numbers):
     """An equilibrium: fields of the shape of the heights, and the account of the solve.
 
     All numbers are in the units of the input; energies are per area, compression is positive. Gap and pressures are
@@ -331,105 +332,9 @@ class Solution:
         return None if self._displacements is None else self._displacements[1]
 
     @property
-    def status(self) -> Status:
-        """``"converged"``, ``"iteration-limit"``, ``"stalled"``, ``"stopped"`` or ``"detached"``."""
-        return self._told["status"]
-
-    @property
     def converged(self) -> bool:
         """Whether the tolerance was met, on the very fields that are here."""
         return self.status == "converged"
-
-    @property
-    def relative_error(self) -> float:
-        """Certified relative error in the energy norm."""
-        return cast("float", self._told["relative_error"])
-
-    @property
-    def mean_gap(self) -> float:
-        """Mean gap."""
-        return self._told["mean_gap"]
-
-    @property
-    def mean_pressure(self) -> float:
-        """Mean external pressure p̄, the normal force over the nominal area."""
-        return self._told["mean_pressure"]
-
-    @property
-    def boundary(self) -> Boundary:
-        """``"periodic"`` or ``"free"``."""
-        return self._told["boundary"]
-
-    @property
-    def normal_force(self) -> float:
-        """Normal force F = p̄·Lx·Ly, compression positive."""
-        return self._told["normal_force"]
-
-    @property
-    def approach(self) -> float | None:
-        """Approach δ, a length; None with a periodic boundary.
-
-        It is how far the bodies have moved towards each other since they would first touch undeformed.
-        """
-        return self._told["approach"]
-
-    @property
-    def absent_nodes(self) -> int:
-        """Number of absent nodes, at which nothing faces the half-space."""
-        return self._told["absent_nodes"]
-
-    @property
-    def edge_traction(self) -> float | None:
-        """Largest traction on the outermost nodes, as a share of the largest anywhere; None with a periodic boundary.
-
-        Unless the body ends there, a value above 0.001 means that the map of the heights is too small.
-        """
-        return self._told["edge_traction"]
-
-    @property
-    def mean_contact_pressure(self) -> float:
-        """Mean contact pressure."""
-        return self._told["mean_contact_pressure"]
-
-    @property
-    def contact_fraction(self) -> float:
-        """Share of the nodes in contact, of those that are not absent."""
-        return self._told["contact_fraction"]
-
-    @property
-    def elastic_energy(self) -> float:
-        """Elastic energy per area."""
-        return self._told["elastic_energy"]
-
-    @property
-    def adhesive_energy(self) -> float:
-        """Adhesive energy per area."""
-        return self._told["adhesive_energy"]
-
-    @property
-    def contact_stiffness(self) -> float | None:
-        """Contact stiffness dp̄/dδ, a pressure per length; None where it was not asked for.
-
-        It is how much the mean pressure grows as the bodies approach each other, or as the mean gap falls, and equals
-        the stiffness of a flat punch with the outline of the contact. Infinite where all nodes are in contact; with
-        adhesion it may be negative.
-        """
-        return self._told["contact_stiffness"]
-
-    @property
-    def normal_stiffness(self) -> float | None:
-        """Normal stiffness dF/dδ, a force per length; None where it was not asked for."""
-        return self._told["normal_stiffness"]
-
-    @property
-    def iterations(self) -> int:
-        """Number of steps."""
-        return self._told["iterations"]
-
-    @property
-    def operator_applications(self) -> int:
-        """Number of operator applications, each a forward and an inverse transform."""
-        return self._told["operator_applications"]
 
     def __repr__(self) -> str:
         rows = self._looked[2]

@@ -6,19 +6,22 @@ use std::path::Path;
 
 use asperity::Error;
 use asperity::accuracy::Quantity;
-use asperity_scene::{GridErrors, corrected, dimension_of};
+use asperity_scene::{
+    Account, Adhesion, Elastic, GROUPS, GridErrors, Inputs, Measure, OF_ADHESION, PulledOff, Told, corrected,
+};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::figures::{GROUPS, OF_ADHESION, is_constant, place, shown};
+use super::figures::{is_constant, place, shown};
 use super::maps::resolution;
 use super::{FINE, Page};
-use crate::columns::{self, spaced};
+use crate::columns::spaced;
 use crate::contact;
 use crate::leak;
 use crate::outcome::Outcome;
 use crate::pictures::MapColours;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
+use crate::report::LAST;
 use crate::results::{Contents, REPORT};
 use crate::scene;
 use crate::solved::{Solved, units_of};
@@ -32,15 +35,15 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     })?;
     let mut report: Value =
         serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of asperity: {e}")))?;
-    let command = report["command"].as_str().unwrap_or_default().to_owned();
-    let longest = report["shape"].as_array().into_iter().flatten().filter_map(Value::as_u64).max();
+    let command = report[Account::NAMES.command].as_str().unwrap_or_default().to_owned();
+    let longest = report[Inputs::NAMES.shape].as_array().into_iter().flatten().filter_map(Value::as_u64).max();
     let paper = resolution(longest.unwrap_or_default());
     match &*command {
         "solve" | "demo" => {}
         "pull-off" => {
             // of the last state that holds
-            let mut all = report["last"].as_object().cloned().unwrap_or_default();
-            all.extend(report.as_object().cloned().unwrap_or_default().into_iter().filter(|(key, _)| key != "last"));
+            let mut all = report[LAST].as_object().cloned().unwrap_or_default();
+            all.extend(report.as_object().cloned().unwrap_or_default().into_iter().filter(|(key, _)| key != LAST));
             report = all.into();
         }
         "leak" => return page_of(folder, &report, leak::contents(folder, &report, paper)?),
@@ -50,22 +53,20 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     let solved = Solved { folder, report };
     let (report, units) = (&solved.report, solved.units());
     let scene = fs::read_to_string(folder.join(scene::NAME)).ok();
-    let status = report["status"].as_str().unwrap_or_default();
+    let status = report[Account::NAMES.status].as_str().unwrap_or_default();
     let mut page = Page::of_folder(folder, report, status);
 
     let mut warnings: Vec<String> = Vec::new();
     if status != "converged" {
         warnings.push(format!("The solve has not converged, it is {status}: the answer may be wrong."));
     }
-    if report["reached"] == false {
+    if report[PulledOff::NAMES.reached] == false {
         warnings.push(
             "The pull-off is not found to its tolerance: the surfaces may bear more than is found here.".to_owned(),
         );
     }
-    let said = report["warnings"].as_array().into_iter().flatten();
-    warnings.extend(
-        said.filter_map(|warning| Some(format!("{}: {}", warning["code"].as_str()?, warning["message"].as_str()?))),
-    );
+    let said: Vec<Told> = serde_json::from_value(report[Account::NAMES.warnings].clone()).unwrap_or_default();
+    warnings.extend(said.iter().map(Told::to_string));
     if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
@@ -98,7 +99,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     page.figures(Some("All inputs"), &others.collect::<Vec<_>>());
     for (_, levels) in levels {
         let level = |level: &Value| {
-            let shape = shown("shape", &level["shape"], &number)?;
+            let shape = shown("shape", &level[Inputs::NAMES.shape], &number)?;
             let rest = level.as_object()?.iter().filter(|(key, _)| *key != "shape");
             let rest = rest.filter_map(|(key, value)| Some(format!("{} {}", spaced(key), shown(key, value, &number)?)));
             Some((shape, rest.collect::<Vec<_>>().join(", ")))
@@ -120,13 +121,14 @@ fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String>
     for picture in pictures {
         match picture.key() {
             [] => drawn.figure(&picture.svg()?),
-            _ => drawn.map(&picture, &report["lengths"], units.length.as_deref())?,
+            _ => drawn.map(&picture, &report[Inputs::NAMES.lengths], units.length.as_deref())?,
         }
     }
     page.pictures("Maps and curves", &drawn);
     page.heading("Settings");
     // what is known along axes is among the figures
-    let inputs = report.as_object().into_iter().flatten().filter(|(_, value)| value["x"].is_null());
+    let inputs =
+        report.as_object().into_iter().flatten().filter(|(_, value)| value.get("x").is_none_or(Value::is_null));
     let number = number_of(report, &units);
     let inputs = inputs.filter_map(|(key, value)| Some((key.clone(), shown(key, value, &number)?)));
     page.figures(Some("All inputs"), &inputs.collect::<Vec<_>>());
@@ -135,17 +137,18 @@ fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String>
 
 /// What writes the numbers of a report, by their keys.
 fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> String + use<'a> {
-    let control = report["control"].as_str().unwrap_or_default();
-    let on_line = report["shape"][1] == 1;
-    let counted = report["contact_fraction"].as_f64().unwrap_or_default();
-    move |key, value| match dimension_of(key, control, on_line) {
+    let control = report[Account::NAMES.control].as_str().unwrap_or_default();
+    let on_line = report[Inputs::NAMES.shape][1] == 1;
+    let counted = report[Account::NAMES.contact_fraction].as_f64().unwrap_or_default();
+    move |key, value| match Measure::of(key, control, on_line) {
         // a window around a tip is no area of its energy
-        Some(ENERGY_PER_AREA) if report["boundary"] == "free" && key.ends_with("_energy") => {
-            let area: f64 = report["lengths"].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
+        Measure::Of(ENERGY_PER_AREA) if report[Elastic::NAMES.boundary] == "free" && key.ends_with("_energy") => {
+            let area: f64 =
+                report[Inputs::NAMES.lengths].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
             units.number(area * value, ENERGY)
         }
         _ if key == "corrected_contact_fraction" => corrected(value, counted),
-        dimension => columns::number(key, value, dimension, units),
+        measure => measure.text(value, units),
     }
 }
 
@@ -160,13 +163,15 @@ fn error_of_grid(report: &Value) -> Option<String> {
 pub fn groups(report: &Value, units: &Units) -> Vec<(&'static str, Vec<(String, String)>)> {
     let number = number_of(report, units);
     // the load is said once, under its own name
-    let given = report["control"].as_str().unwrap_or_default().replace('-', "_");
+    let given = report[Account::NAMES.control].as_str().unwrap_or_default().replace('-', "_");
     let once = |key: &str| match key {
         _ if is_constant(key, report) => false,
         "control" | "control_value" => !report[given.as_str()].is_f64(),
         "absent_nodes" => report[key] != 0,
         "under_resolved" => report[key] != false,
-        _ if report["law"] == "none" => !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key),
+        _ if report[Adhesion::NAMES.law] == "none" => {
+            !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key)
+        }
         _ => true,
     };
     let figure = |key: &str| {

@@ -7,8 +7,8 @@ use std::path::Path;
 use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::escaped;
-use asperity_scene::legs::{abscissa, value, varied};
-use asperity_scene::{Load, dimension_of_key};
+use asperity_scene::legs::{CASE, abscissa, value, varied};
+use asperity_scene::{Account, Load, Step, dimension_of_key};
 use serde_json::Value;
 use toml::Table;
 
@@ -40,7 +40,7 @@ pub fn page(table: &Path) -> Outcome<String> {
     let units = units_of_table(&header, scene.as_deref());
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let cycle = has("leg");
-    let study = columns.first().is_some_and(|column| column == "case");
+    let study = columns.first().is_some_and(|column| column == CASE);
     let command = match (study, cycle) {
         (true, _) => "study",
         (_, true) => "cycle",
@@ -48,7 +48,7 @@ pub fn page(table: &Path) -> Outcome<String> {
         _ => "sweep",
     };
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
-    let bad = |row: &Value| row["status"] != "converged";
+    let bad = |row: &Value| row[Account::NAMES.status] != "converged";
     let unconverged = rows.iter().filter(|row| bad(row)).count();
     let count = rows.len();
     let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
@@ -83,7 +83,7 @@ pub fn page(table: &Path) -> Outcome<String> {
         !varied.contains(&column.as_str()) && same(column) && (count > 1 || place(column) == usize::MAX)
     };
     let (settings, mut kept): (Vec<_>, Vec<_>) = filled.partition(is_setting);
-    let is_first = |column: &str| column == "case" || varied.contains(&column);
+    let is_first = |column: &str| column == CASE || varied.contains(&column);
     kept.sort_by_key(|(_, column)| if is_first(column) { 0 } else { place(column).saturating_add(1) });
     let cells = |tag: &str, text: &dyn Fn(&str) -> String| -> String {
         kept.iter().map(|(_, column)| format!("<{tag}>{}</{tag}>", escaped(&text(column)))).collect()
@@ -116,7 +116,7 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
     };
     let loads = parsed(&list.as_str().map_or_else(|| list.to_string(), str::to_owned), &number).ok()?.values;
     let (last, count, to) = (rows.last()?, loads.len(), loads.last()?);
-    match last["leg"].as_u64() {
+    match last[Step::NAMES.leg].as_u64() {
         None => (rows.len() < count).then(|| format!("it has {} of {count} rows", rows.len())),
         Some(leg) => {
             // a force is held by a mean pressure, and the position of a spring has no column of its own
@@ -125,7 +125,7 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
             let is_there = dimension.is_none() || (found - to).abs() <= 1e-6 * to.abs();
             // a withdrawal ends where the surfaces are apart
             let shares = ["contact_fraction", "attractive_fraction"].map(|share| value(last, share));
-            let is_apart = last["direction"] == "withdrawal" && shares == [0.0; 2];
+            let is_apart = last[Step::NAMES.direction] == "withdrawal" && shares == [0.0; 2];
             let is_over = leg as usize + 1 == count && (is_there || is_apart);
             (!is_over).then(|| format!("it ends on leg {leg} of {}", count - 1))
         }
@@ -153,7 +153,7 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
     if let Some((k, row)) = least.filter(|(_, row)| value(row, "normal_force") < 0.0) {
         let (at, place) = if free { ("an approach", "approach") } else { ("a mean gap", "mean_gap") };
         // what the surfaces come to in an approach, or still bear at the end, is no pull-off
-        let is_lost = row["direction"] == "withdrawal" && k + 1 < rows.len();
+        let is_lost = row[Step::NAMES.direction] == "withdrawal" && k + 1 < rows.len();
         let name = if is_lost { "pull-off force" } else { "greatest tensile force" };
         let force = columns.number("normal_force", -value(row, "normal_force"));
         figures.push((name.to_owned(), format!("at least {force}, at {at} of {}", told(row, place))));
@@ -163,13 +163,13 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
         }
     }
     let jumps: Vec<_> = rows.iter().filter(|row| value(row, "energy_drop") > 0.0).collect();
-    let of = |direction: &str| jumps.iter().filter(|row| row["direction"] == direction).count();
+    let of = |direction: &str| jumps.iter().filter(|row| row[Step::NAMES.direction] == direction).count();
     let (approach, withdrawal) = (of("approach"), of("withdrawal"));
     figures.push(("jumps".to_owned(), format!("{approach} in approach, {withdrawal} in withdrawal")));
     let per_area = if free { "" } else { " per area" };
     if let Some(last) = rows.last() {
         figures.push((format!("dissipated energy{per_area}"), told(last, "dissipated")));
-        if last["plastic_energy"].is_number() {
+        if last[Account::NAMES.plastic_energy].is_number() {
             figures.push((format!("plastic work{per_area}"), told(last, "plastic_energy")));
         }
     }
@@ -190,7 +190,7 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
     let free = is_there("approach");
     let gap = if free { "approach" } else { "mean_gap" };
     // the curves of a study have their own names
-    let (study, along) = (rows[0]["case"].is_u64(), abscissa(rows));
+    let (study, along) = (rows[0][CASE].is_u64(), abscissa(rows));
     let x = along.unwrap_or(if cycle { gap } else { load });
     let mut charts = Vec::new();
     if cycle && rows[0]["control"] == "spring" {

@@ -19,9 +19,7 @@ use crate::quantity::{Quantity, number_and_unit};
 use crate::scene::{is_path, key, section};
 use crate::synonyms::similar;
 use crate::table::format_of;
-
-/// The commands of which a case may be a run.
-const COMMANDS: [&str; 4] = ["sweep", "cycle", "solve", "pull-off"];
+use crate::{Place, commands};
 
 /// The sections that a study has besides the sections of its command.
 pub const SECTIONS: [&str; 2] = ["make", "vary"];
@@ -67,11 +65,10 @@ impl Study {
         let run =
             if is_scene { format!(", or run the scene by 'asperity run {}'", path.display()) } else { String::new() };
         let name = match table.remove("command") {
-            Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
+            Some(Value::String(name)) if commands(Place::Study).contains(&name.as_str()) => name,
             Some(other) => {
-                return Err(
-                    refuse(format!("command is {other}: it must be one of {}{run}", COMMANDS.join(", "))).into()
-                );
+                let known = commands(Place::Study).join(", ");
+                return Err(refuse(format!("command is {other}: it must be one of {known}{run}")).into());
             }
             None => return Err(refuse(lacks(&table, "command", "does not say what to do", "sweep")).into()),
         };

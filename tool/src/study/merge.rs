@@ -5,6 +5,7 @@ use std::path::Path;
 use std::str::Lines;
 
 use asperity::Error;
+use asperity_scene::legs::CASE;
 use asperity_scene::{Format, Told};
 use serde_json::{Map, Number, Value};
 
@@ -33,7 +34,7 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
             // a surface that was made has the name of no file
             let told = columns.iter().filter(|name| study.cases[0].words.len() == 1 || *name != "heights");
             let cells = told.map(|name| (name.clone(), row.remove(name).unwrap_or_default()));
-            let number = std::iter::once(("case".to_owned(), (k + 1).into()));
+            let number = std::iter::once((CASE.to_owned(), (k + 1).into()));
             let row = number.chain(own.clone()).chain(cells).collect::<Map<_, _>>();
             if count == 0 {
                 table = format.header(&row.keys().collect::<Vec<_>>());

@@ -12,15 +12,15 @@ record! {
     /// The conductance of a contact, as its report has it.
     #[derive(Clone, Copy, Debug, Serialize)]
     Conducted of (found: Conductance, share: f64, relative_error: Option<f64>, conductors: Conductors) {
-        /// The conductance per area.
+        /// Conductance per area.
         value: f64 = found.per_area,
-        /// The conductance of the whole map, or of the part of a mirrored one that results are of.
+        /// Conductance of the whole map, or of the original of a mirrored one.
         whole: f64 = share * found.whole,
-        /// The relative error of the stiffness, the estimated one of the grid included; none where that is unknown.
-        relative_error: Option<f64> = relative_error,
-        /// The resistivities of both bodies, if they are given.
+        /// Relative error, with the estimated error of the grid; none where that is unknown.
+        relative_error: Option<f64> as Error = relative_error,
+        /// Resistivities of both bodies, if they are given.
         resistivities: Option<(f64, f64)> = if let Conductors::Electrical(pair) = conductors { Some(pair) } else { None },
-        /// The conductivities of both bodies, if they are given.
+        /// Conductivities of both bodies, if they are given.
         conductivities: Option<(f64, f64)> = if let Conductors::Thermal(pair) = conductors { Some(pair) } else { None },
         /// The conductors.
         #[serde(skip)]

@@ -59,11 +59,11 @@ record! {
     /// The narrowest place of the widest passage along an axis.
     #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
     Narrowest of (found: &Constriction) {
-        /// The gap there.
-        gap: f64 = found.gap,
-        /// The node.
+        /// Gap there.
+        gap: f64 [LENGTH] = found.gap,
+        /// Node there.
         node: (usize, usize) = found.node,
-        /// The nodes on the passage.
+        /// Number of nodes on the passage.
         path_nodes: usize = found.path.len(),
     }
 }
@@ -92,17 +92,17 @@ record! {
     /// A transmissivity, and how it was found.
     #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
     Transmissivity of (flow: &Flow, error: Option<f64>) {
-        /// The lower bound.
-        lower: f64 = flow.transmissivity.lower,
-        /// The upper bound.
-        upper: f64 = flow.transmissivity.upper,
-        /// The estimated relative error of the grid, from grids of half the resolution.
-        grid_error: Option<f64> = error,
+        /// Lower bound.
+        lower: f64 [TRANSMISSIVITY] = flow.transmissivity.lower,
+        /// Upper bound.
+        upper: f64 [TRANSMISSIVITY] = flow.transmissivity.upper,
+        /// Estimated relative error of the grid, from grids of half the resolution; of `leak` alone.
+        grid_error: Option<f64> as Error = error,
         /// Whether the bounds are as close as the tolerance.
         reached: bool = flow.reached,
-        /// The iterations of conjugate gradients.
+        /// Iterations of conjugate gradients.
         iterations: usize = flow.iterations,
-        /// The nodes through which the fluid may flow.
+        /// Nodes through which the fluid may flow.
         nodes: usize = flow.nodes,
     }
 }

@@ -13,47 +13,46 @@ use crate::numbers::percent;
 record! {
     /// The pull-off of a problem, as its report has it next to the account of the last state that holds.
     #[derive(Clone, Debug, PartialEq, Serialize)]
-    PulledOff of <T: Real>(
+    PulledOff named PulledOffNames of <T: Real>(
         asked: PullOff,
         found: &FoundPullOff<T>,
         report: &Report,
         accurate: Result<&AccuratePullOff<T>, &str>,
         goal: Option<Goal>,
     ) {
-        /// The greatest tension that was borne, a pressure over the area of the map; none if no state under a tension was
-        /// found.
-        pull_off_pressure: Option<f64> = is_borne(report).then_some(-report.mean_pressure),
-        /// The force of that tension.
-        pull_off_force: Option<f64> = is_borne(report).then_some(-report.normal_force),
-        /// The pull-off in the limit of no range that the state tells, a pressure, of a law that has the range of the grid.
-        limit_pressure: Option<f64> = accurate.ok().and_then(|found| found.limit),
-        /// The force of that tension.
-        limit_force: Option<f64> = accurate.ok()
+        /// Greatest tension that the surfaces bore, over the area of the map; none if no state under a tension was found.
+        pull_off_pressure: Option<f64> [PRESSURE] = is_borne(report).then_some(-report.mean_pressure),
+        /// Force of the greatest tension.
+        pull_off_force: Option<f64> [FORCE] = is_borne(report).then_some(-report.normal_force),
+        /// With `law` `jkr`, the pull-off in the limit of no range that the last state tells.
+        limit_pressure: Option<f64> [PRESSURE] = accurate.ok().and_then(|found| found.limit),
+        /// Force of the pull-off in the limit of no range.
+        limit_force: Option<f64> [FORCE] = accurate.ok()
             .and_then(|found| Some(found.limit? * report.normal_force / report.mean_pressure)),
-        /// The estimated relative error of the limit, if a coarser grid tells it.
-        limit_error: Option<f64> = accurate.ok().and_then(|found| found.error.ok()).map(|error| error.relative),
-        /// The reason why there is no error.
+        /// Estimated relative error of the limit, if a coarser grid tells it.
+        limit_error: Option<f64> as Error = accurate.ok().and_then(|found| found.error.ok()).map(|error| error.relative),
+        /// Why the limit has no error.
         limit_reason: Option<String> = reason(accurate),
-        /// The key of the pull-off to report: the limit if it has an error, and nothing where a few nodes bear the tension.
+        /// Key of the pull-off to report: the limit if it has an error, and nothing where a few nodes bear the tension.
         to_report: Option<&'static str> = to_report(accurate, report),
-        /// The relative error that was asked for, if one was.
+        /// Relative error that was asked for, if one was.
         accuracy: Option<f64> = accurate.ok().and(goal).map(|goal| goal.accuracy),
         /// Whether a finer grid could be taken.
         #[serde(skip)]
         refinable: bool = accurate.is_ok_and(|found| found.refinable),
-        /// The least tension under which the surfaces came apart.
-        lost_pressure: Option<f64> = found.lost,
-        /// Whether the two are as close as the tolerance.
+        /// Least tension under which the surfaces came apart, from a state within `rtol` of it if `reached`.
+        lost_pressure: Option<f64> [PRESSURE] = found.lost,
+        /// Whether the two tensions are within the tolerance.
         reached: bool = found.reached && accurate.map_or(true, |found| found.reached),
-        /// The relative tolerance.
+        /// Relative tolerance.
         rtol: f64 = asked.tolerance,
-        /// The mean pressure to which the surfaces were pressed before; flat, or as the branch says, if there is none.
+        /// Mean pressure to which the surfaces were pressed before; none where they were pressed flat, or as `branch` says.
         preload: Option<f64> = asked.preload,
-        /// The branch of the first solve, unless its start was given.
+        /// Branch of the first solve, unless its start was given.
         branch: Option<Branch> = found.branch,
-        /// The number of solves.
+        /// Number of solves.
         solves: usize = found.solves,
-        /// The operator applications of all of them.
+        /// Operator applications of all solves.
         operator_applications: usize = found.operator_applications,
     }
 }

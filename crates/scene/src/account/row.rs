@@ -6,8 +6,8 @@ use asperity::{Real, Status};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::account::{Account, Found, Step, interface};
-use crate::key::{Adhesion, After, record};
+use crate::account::{Account, Found, LIMIT, OUTCOME, PLASTIC, STATE, STIFFNESS, Step, interface};
+use crate::key::{Adhesion, After, LENGTH, record};
 
 record! {
     /// The row of a state in a table, with contacts of these sizes, after a mean gap at first touch: its account, and the
@@ -23,19 +23,19 @@ record! {
         /// The account, complete.
         #[serde(flatten)]
         account: Account = account.clone(),
-        /// The approach of the mean planes since first touch, in the table of an interface.
-        closure: Option<f64> = touch.map(|touch| touch - account.mean_gap),
-        /// The number of separate contacts.
+        /// In the table of an interface, the approach of the mean planes since first touch.
+        closure: Option<f64> [LENGTH] = touch.map(|touch| touch - account.mean_gap),
+        /// Number of separate contacts.
         clusters: usize = sizes.len(),
-        /// The nodes of the largest one.
+        /// Nodes of the largest contact.
         largest_cluster: usize = sizes.first().copied().unwrap_or(0),
-        /// The name of the file of the heights, in the place of its path.
+        /// Name of the file of the heights, in the place of its path.
         heights: Option<String> = account.inputs.heights.as_deref().and_then(file_name),
-        /// The seed of a random surface.
+        /// Seed of a surface that asperity has made.
         seed: Option<u64> = seed,
-        /// The contact fraction that was wanted, if its load was searched for.
-        wanted_contact_fraction: Option<f64> = account.search.map(|search| search.wanted),
-        /// Whether it was reached.
+        /// Contact fraction that was wanted, if its load was searched for.
+        wanted_contact_fraction: Option<f64> as Share = account.search.map(|search| search.wanted),
+        /// Whether the contact fraction was reached.
         reached: Option<bool> = account.search.map(|search| search.reached),
         /// The place on a cycle.
         #[serde(flatten)]
@@ -56,24 +56,15 @@ pub(crate) enum Kind {
     PullOff,
 }
 
-const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
-                     edge_traction contact_fraction corrected_contact_fraction perimeter clusters largest_cluster \
-                     repulsive_fraction attractive_fraction elastic_energy adhesive_energy min_gap";
-const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
 pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
 const BALANCE: &str = "work dissipated imbalance work_error event energy_drop";
 /// What a search for the pull-off found, before the last state that holds; its operator applications are of all solves.
 const PULL_OFF: &str = "pull_off_pressure pull_off_force limit_pressure limit_force limit_error to_report lost_pressure reached \
                         branch solves";
-const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
-
-/// The contact by the adhesive energy, and in the limit of no range, of a law that has the range of the grid.
-const LIMIT: &str = "adhesive_contact_fraction jkr_contact_fraction";
-
 impl Kind {
     /// The names of the columns, with what is asked for after each state, of surfaces with this adhesion, which may yield.
     pub fn columns(self, after: &After, adhesion: &Adhesion) -> Vec<&'static str> {
-        let stiffness = if after.stiffness { "contact_stiffness normal_stiffness" } else { "" };
+        let stiffness = if after.stiffness { STIFFNESS } else { "" };
         let (before, behind) = match self {
             Self::Interface => (vec![interface::COLUMNS], interface::OUTCOME),
             Self::Sweep => (vec![STATE, OUTCOME, INPUTS, stiffness], ""),

@@ -55,24 +55,57 @@ macro_rules! choice {
 }
 pub(crate) use choice;
 
-/// A struct of public fields, each with its value and the dimension of its number, if that has one; and the function that
-/// makes it of those values.
+/// A struct of public fields, each with its meaning, its value, and the dimension of its number, as `[LENGTH]`, or another
+/// measure, as `as Share`, if it has one; the function that makes the struct of these values, and the list of the numbers.
+/// A struct of the names of the numbers may be `named`: by its fields a wrong name does not compile.
 macro_rules! record {
+    ($(#[$about:meta])* $name:ident named $names:ident of $($rest:tt)*) => {
+        record!($(#[$about])* $name of $($rest)*);
+        record!(@names $name $names $($rest)*);
+    };
+    (
+        @names $name:ident $names:ident $(<$scalar:ident $(: $bound:path)?>)? ($($given:tt)*) {
+            $($(#[$meta:meta])* $key:ident: $type:ty $([$dimension:expr])? $(as $measure:ident)? = $value:expr,)*
+        }
+    ) => {
+        /// The names of the numbers, in reports and in tables.
+        #[derive(Clone, Copy, Debug)]
+        pub struct $names {
+            $(
+                #[doc = concat!("`", stringify!($key), "`.")]
+                pub $key: &'static str,
+            )*
+        }
+
+        impl $name {
+            /// The names of the numbers.
+            pub const NAMES: $names = $names { $($key: stringify!($key),)* };
+        }
+    };
     (
         $(#[$about:meta])*
         $name:ident $(<$own:ident: $of:path>)? of $(<$scalar:ident $(: $bound:path)?>)? ($($given:ident: $kind:ty),* $(,)?) {
-            $($(#[$meta:meta])* $key:ident: $type:ty $([$dimension:expr])? = $value:expr,)*
+            $($(#[doc = $help:literal])+ $(#[serde($place:ident)])? $key:ident: $type:ty $([$dimension:expr])? $(as $measure:ident)? = $value:expr,)*
         }
     ) => {
         $(#[$about])*
         pub struct $name$(<$own: $of>)? {
-            $($(#[$meta])* pub $key: $type,)*
+            $($(#[doc = $help])+ $(#[serde($place)])? pub $key: $type,)*
         }
 
         impl$(<$own: $of>)? $name$(<$own>)? {
-            /// The dimensions of its numbers, by the names of their fields.
-            pub const DIMENSIONS: &'static [(&'static str, $crate::key::quantity::Dimension)] =
-                &[$($((stringify!($key), $dimension),)?)*];
+            /// The numbers, in the order of a report.
+            pub const NUMBERS: &'static [$crate::account::Number] = &[$($crate::account::Number {
+                name: stringify!($key),
+                help: concat!($($help),+),
+                kind: stringify!($type),
+                measure: [
+                    $($crate::account::Measure::Of($dimension),)?
+                    $($crate::account::Measure::$measure,)?
+                    $crate::account::Measure::Plain,
+                ][0],
+                is_told: $crate::account::is_told(&[$(stringify!($place))?]),
+            },)*];
 
             /// The record of what is given.
             pub fn of$(<$scalar $(: $bound)?>)?($($given: $kind),*) -> Self {

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use asperity_maps::warning::Warning;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A warning in the units of a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Told {
     /// The code.
     pub code: String,

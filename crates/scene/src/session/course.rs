@@ -332,8 +332,8 @@ impl<T: Scalar> Course<T> {
             self.place.branch = account.branch.or(self.place.branch);
             account.branch = self.place.branch;
         }
-        let shares = [Some(account.contact_fraction), account.attractive_fraction];
-        let apart = found.step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [Some(0.0); 2];
+        let shares = [account.contact_fraction, account.attractive_fraction];
+        let apart = found.step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [0.0; 2];
         if let Strategy::Cycle(path) = &mut self.place.strategy
             && apart
             && -account.mean_pressure <= FAINT * path.end().greatest_tension

@@ -10,7 +10,7 @@ use asperity::solver::Iteration;
 use asperity::{Control, Solver, Status};
 use serde::Serialize;
 
-use crate::key::{After, Scalar};
+use crate::key::{After, ENERGY_PER_AREA, PRESSURE, Scalar, record};
 use crate::outcome::Outcome;
 use crate::session::Session;
 use crate::session::course::Course;
@@ -18,27 +18,18 @@ use crate::session::posed::Body;
 use crate::session::way::Way;
 use crate::table::warnings::Warnings;
 
-/// The limits of no range of what a cycle tells.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct CycleLimit {
-    /// The work done by the load, per area of the map.
-    pub work_limit: f64,
-    /// The estimated error of this limit.
-    pub work_limit_error: f64,
-    /// The greatest tension.
-    pub tension_limit: f64,
-    /// The estimated error of this limit.
-    pub tension_limit_error: f64,
-}
-
-impl CycleLimit {
-    fn of(LoopLimit { work, tension }: LoopLimit) -> Self {
-        Self {
-            work_limit: work.value,
-            work_limit_error: work.error,
-            tension_limit: tension.value,
-            tension_limit_error: tension.error,
-        }
+record! {
+    /// The limits of no range of what a cycle tells.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    CycleLimit of (limit: LoopLimit) {
+        /// With `law` `jkr`, the limit of no range of the work done by the load, per area of the map.
+        work_limit: f64 [ENERGY_PER_AREA] = limit.work.value,
+        /// Estimated error of the limit of the work.
+        work_limit_error: f64 [ENERGY_PER_AREA] = limit.work.error,
+        /// With `law` `jkr`, the limit of no range of the greatest tension.
+        tension_limit: f64 [PRESSURE] = limit.tension.value,
+        /// Estimated error of the limit of the tension.
+        tension_limit_error: f64 [PRESSURE] = limit.tension.error,
     }
 }
 

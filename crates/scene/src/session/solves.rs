@@ -35,7 +35,7 @@ impl<T: Scalar> Session<T> {
         )?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
-        let reached = Reached { wanted: goal.accuracy, of: goal.of, reached, refinable, unaffordable };
+        let reached = Reached::of(goal.accuracy, goal.of, reached, refinable, unaffordable);
         let mut found = self.found(solution, clock)?;
         let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
         found.sight.estimate(&levels, nodes_per_wave);

@@ -4,11 +4,14 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::Value;
 
-use crate::account::INPUTS;
+use crate::account::{INPUTS, Step};
 
 /// The most colours and dashes of a chart that have names.
 const MOST_COLOURS: usize = 8;
 const MOST_DASHES: usize = 4;
+
+/// The column of the number of a case.
+pub const CASE: &str = "case";
 
 /// The first columns of the tables of cases.
 const FIRST: [&str; 3] = ["leg", "control", "pull_off_pressure"];
@@ -48,7 +51,7 @@ pub fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
 
 /// Whether rows belong to a cycle.
 fn is_cycle(rows: &[Value]) -> bool {
-    rows.first().is_some_and(|row| row["leg"].is_u64())
+    rows.first().is_some_and(|row| row[Step::NAMES.leg].is_u64())
 }
 
 /// The least, the median and the greatest of values that are finite, if there are any.
@@ -62,7 +65,7 @@ fn spread(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
 /// row before them, and of a study its cases, by the values that they vary, each of a column as it is `told`. A single
 /// one has no name.
 pub fn legs<'a>(rows: &'a [Value], x: &str, told: impl Fn(&str, f64) -> String) -> Vec<Leg<'a>> {
-    if rows.first().is_some_and(|row| row["case"].is_u64()) {
+    if rows.first().is_some_and(|row| row[CASE].is_u64()) {
         return cases(rows, x, &told);
     }
     let load = |row: &Value| value(row, "control_value");
@@ -88,9 +91,9 @@ pub fn legs<'a>(rows: &'a [Value], x: &str, told: impl Fn(&str, f64) -> String) 
 /// The columns that a study varies: those between the number of the case and the load, and of the inputs those that are
 /// not the same in all rows. None of another table.
 pub fn varied(rows: &[Value]) -> Vec<&str> {
-    let Some(first) = rows.first().filter(|row| row["case"].is_u64()) else { return Vec::new() };
+    let Some(first) = rows.first().filter(|row| row[CASE].is_u64()) else { return Vec::new() };
     let mut keys = first.as_object().into_iter().flat_map(|row| row.keys().map(String::as_str));
-    let own = keys.by_ref().skip_while(|key| *key != "case").skip(1).take_while(|key| !FIRST.contains(key));
+    let own = keys.by_ref().skip_while(|key| *key != CASE).skip(1).take_while(|key| !FIRST.contains(key));
     let mut varied: Vec<_> = own.collect();
     let differs =
         |key: &&str| INPUTS.split(' ').any(|input| input == *key) && rows.iter().any(|row| row[*key] != first[*key]);
@@ -104,7 +107,7 @@ pub fn abscissa(rows: &[Value]) -> Option<&str> {
     let mut columns = varied(rows);
     columns.retain(|column| *column != "seed" && rows.iter().all(|row| row[*column].is_number()));
     let found = columns.into_iter().max_by_key(|column| distinct(rows, &[column]))?;
-    let is_single = rows.windows(2).all(|two| two[0]["case"] != two[1]["case"]);
+    let is_single = rows.windows(2).all(|two| two[0][CASE] != two[1][CASE]);
     (is_single && distinct(rows, &[found]) > 1).then_some(found)
 }
 
@@ -125,7 +128,7 @@ fn cases<'a>(rows: &'a [Value], x: &str, told: &dyn Fn(&str, f64) -> String) -> 
     let mut parts: Vec<Vec<&Value>> = Vec::new();
     let mut known = HashMap::new();
     for row in rows {
-        let case = if is_along { Value::Null } else { row["case"].clone() };
+        let case = if is_along { Value::Null } else { row[CASE].clone() };
         let key = columns.iter().map(|column| &row[*column]).chain([&case]).map(Value::to_string).collect::<Vec<_>>();
         let k = *known.entry(key).or_insert(parts.len());
         if k == parts.len() {

@@ -165,9 +165,9 @@ fn bad_scenes_are_refused_on_one_line() {
     for (content, part) in [
         ("", "add command"),
         ("out = \"x\"", "add command"),
-        ("command = \"solv\"", "one of solve, sweep"),
-        ("command = \"run\"", "one of solve, sweep"),
-        ("command = 3", "one of solve, sweep"),
+        ("command = \"solv\"", "one of demo, solve"),
+        ("command = \"run\"", "one of demo, solve"),
+        ("command = 3", "one of demo, solve"),
         ("command", "line 1"),
     ] {
         bench.write("bad.toml", content);
@@ -236,7 +236,7 @@ fn keys(report: &Value, found: &mut Vec<String>) {
 #[test]
 fn reports_are_one_document_whose_keys_are_documented() {
     let bench = rough();
-    let page = include_str!("../../docs/program/reports.md");
+    let page = concat!(include_str!("../../docs/program/reports.md"), include_str!("../../docs/program/numbers.md"));
     let quick = "--heights heights.npy --threads 1";
     for (arguments, expected) in [
         (format!("solve {quick} {ADHESION} --mean-gap 0.02 --leave --out one"), vec!["stability", "departures"]),

@@ -3,86 +3,35 @@
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor, Write};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 use asperity::{Grid, Surface};
-use asperity_maps::io::{read_field, write_npy};
+use asperity_maps::io::write_npy;
 use ndarray::Array2;
 use serde_json::{Value, json};
-use tempfile::TempDir;
+
+use crate::bench::{Bench, text};
 
 const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
 const RESULTS: [&str; 7] =
     ["contact.png", "contact_pressure.npy", "gap.npy", "pressure.npy", "pressure.png", "report.json", "scene.toml"];
 
-/// A folder with a paraboloid in it, in which the tool is run.
-struct Bench(TempDir);
+/// A folder with a paraboloid.
+fn paraboloid() -> Bench {
+    Bench::with(&hertz(64))
+}
 
-impl Bench {
-    fn new() -> Self {
-        let bench = Self::empty();
-        write_npy(bench.0.path().join("heights.npy"), &hertz(64)).unwrap();
-        bench
-    }
-
-    fn empty() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn command(&self, arguments: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args(arguments.split_whitespace());
-        command
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        self.command(arguments).output().unwrap()
-    }
-
-    /// Solves with all results in `out`, and expects this exit code.
-    #[track_caller]
-    fn solve(&self, arguments: &str, out: &str, code: i32) -> Value {
-        let output = self.run(&format!("solve --heights heights.npy {arguments} --out {out}"));
-        assert_eq!(output.status.code(), Some(code), "{arguments}: {}", text(&output.stderr));
-        self.report(out)
-    }
-
-    fn report(&self, out: &str) -> Value {
-        serde_json::from_slice(&self.bytes(out, "report.json")).unwrap()
-    }
-
-    fn bytes(&self, out: &str, name: &str) -> Vec<u8> {
-        fs::read(self.0.path().join(out).join(name)).unwrap()
-    }
-
-    fn field(&self, out: &str, name: &str) -> Array2<f64> {
-        read_field(self.0.path().join(out).join(name)).unwrap()
-    }
-
-    /// The names of all files in a folder, hidden ones too.
-    fn names(&self, folder: &str) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path().join(folder)).unwrap();
-        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-
-    /// The size of a picture, wholly decoded, and whether there is more on it than one colour.
-    fn picture(&self, out: &str, name: &str) -> (u32, u32, bool) {
-        let file = File::open(self.0.path().join(out).join(name)).unwrap();
-        let mut reader = png::Decoder::new(BufReader::new(file)).read_info().unwrap();
-        let mut data = vec![0; reader.output_buffer_size().unwrap()];
-        let info = reader.next_frame(&mut data).unwrap();
-        (info.width, info.height, data.iter().any(|byte| *byte != data[0]))
-    }
+/// The size of a picture, wholly decoded, and whether there is more on it than one colour.
+fn picture(bench: &Bench, name: &str) -> (u32, u32, bool) {
+    let file = File::open(bench.path(name)).unwrap();
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().unwrap();
+    let mut data = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut data).unwrap();
+    (info.width, info.height, data.iter().any(|byte| *byte != data[0]))
 }
 
 fn hertz(n: usize) -> Array2<f64> {
     Surface::paraboloid(Grid::square(n, 1.0).unwrap(), 2.0).unwrap().heights().clone()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// The lines on standard error, but for the warning that the paraboloid is a body that ends.
@@ -108,7 +57,7 @@ fn assert_complementary(gap: &Array2<f64>, pressure: &Array2<f64>) {
 
 #[test]
 fn demo() {
-    let bench = Bench::empty();
+    let bench = Bench::new();
     let first = bench.run("demo");
     assert_eq!((first.status.code(), text(&first.stderr)), (Some(0), String::new()));
     let names = [
@@ -123,7 +72,7 @@ fn demo() {
     assert_eq!(bench.names("asperity-demo"), names);
     assert_eq!(bench.names("."), ["asperity-demo"]);
     for name in names.iter().filter(|name| name.ends_with(".png")) {
-        let (width, height, drawn) = bench.picture("asperity-demo", name);
+        let (width, height, drawn) = picture(&bench, &format!("asperity-demo/{name}"));
         assert!(width > 500 && height > 500 && drawn, "{name}");
     }
     let said = text(&first.stdout);
@@ -152,27 +101,27 @@ fn demo() {
     // and so does its scene
     let again = bench.run("run asperity-demo/scene.toml --no-pictures --json --out scene");
     assert_eq!((again.status.code(), text(&again.stderr)), (Some(0), String::new()));
-    assert!(bench.bytes("scene", "gap.npy") == bench.bytes("asperity-demo/with-adhesion", "gap.npy"));
+    assert!(bench.bytes("scene/gap.npy") == bench.bytes("asperity-demo/with-adhesion/gap.npy"));
     let first = bench.run("demo --json --out other");
     let reports: Value = serde_json::from_slice(&first.stdout).unwrap();
     assert_eq!(reports["with_adhesion"]["contact_nodes"], report["contact_nodes"]);
     assert_eq!(reports["without_adhesion"]["law"], "none");
     for folder in ["scene", "other"] {
-        fs::remove_dir_all(bench.0.path().join(folder)).unwrap();
+        fs::remove_dir_all(bench.path(folder)).unwrap();
     }
 
     // A second run replaces its own files by the same, and leaves others alone.
-    let before: Vec<_> = names.iter().map(|name| bench.bytes("asperity-demo", name)).collect();
-    fs::write(bench.0.path().join("asperity-demo/heights.png"), "old").unwrap();
+    let before: Vec<_> = names.iter().map(|name| bench.bytes(&format!("asperity-demo/{name}"))).collect();
+    fs::write(bench.path("asperity-demo/heights.png"), "old").unwrap();
     assert_eq!(bench.run("demo --threads 1").status.code(), Some(0));
-    let after: Vec<_> = names.iter().map(|name| bench.bytes("asperity-demo", name)).collect();
+    let after: Vec<_> = names.iter().map(|name| bench.bytes(&format!("asperity-demo/{name}"))).collect();
     assert!(before == after, "the demo depends on something");
     assert_eq!(bench.names("asperity-demo/with-adhesion").len(), 5);
 }
 
 #[test]
 fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let report = bench.solve("--mean-gap 0.0398 --tolerance 1e-10", "results", 0);
     assert_eq!(bench.names("results"), RESULTS);
     assert_eq!(bench.names("."), ["heights.npy", "results"]);
@@ -215,7 +164,7 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
     assert_close(number(&report, "mean_pressure"), 1.831421e-4, 5e-7 / 1.831421);
     assert_close(number(&report, "mean_contact_pressure"), number(&report, "mean_pressure"), 1e-9);
 
-    let [gap, pressure, contact] = FIELDS.map(|name| bench.field("results", name));
+    let [gap, pressure, contact] = FIELDS.map(|name| bench.field(&format!("results/{name}")));
     assert_complementary(&gap, &contact);
     assert_close(gap.mean().unwrap(), 0.0398, 1e-12);
     assert_close(pressure.mean().unwrap(), number(&report, "mean_pressure"), 1e-9);
@@ -223,7 +172,7 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
     // The full pressure is that in the contact, and hardly any outside of it.
     assert!(pressure.iter().zip(&contact).all(|(p, c)| (p - c).abs() < 1e-8));
     for name in ["contact.png", "pressure.png"] {
-        let (width, height, drawn) = bench.picture("results", name);
+        let (width, height, drawn) = picture(&bench, &format!("results/{name}"));
         assert!(width > 500 && height > 500 && drawn, "{name}");
     }
 
@@ -235,7 +184,7 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
 
 #[test]
 fn both_methods_and_both_precisions_agree() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let paper = bench.solve("--mean-gap 0.0398 --method rey2017", "paper", 0);
     assert_eq!((&paper["method"], &paper["contact_nodes"]), (&"rey2017".into(), &61.into()));
     assert!(number(&paper, "relative_error") <= 1e-6);
@@ -243,10 +192,10 @@ fn both_methods_and_both_precisions_agree() {
     assert_eq!((&single["precision"], &single["contact_nodes"]), (&"f32".into(), &61.into()));
     assert_close(number(&single, "mean_pressure"), 1.831421e-4, 1e-3);
     for name in FIELDS {
-        assert!(bench.bytes("paper", name).windows(3).any(|w| w == b"<f8"));
-        assert!(bench.bytes("single", name).windows(3).any(|w| w == b"<f4"));
+        assert!(bench.bytes(&format!("paper/{name}")).windows(3).any(|w| w == b"<f8"));
+        assert!(bench.bytes(&format!("single/{name}")).windows(3).any(|w| w == b"<f4"));
     }
-    assert_complementary(&bench.field("single", "gap.npy"), &bench.field("single", "contact_pressure.npy"));
+    assert_complementary(&bench.field("single/gap.npy"), &bench.field("single/contact_pressure.npy"));
     // The tolerance that f32 has by default can be met where there is enough contact.
     let default = bench.solve("--mean-gap 0.02 --precision f32", "default", 0);
     assert_eq!(number(&default, "tolerance"), 1e-4);
@@ -262,7 +211,7 @@ fn npy(dtype: &str, fortran: bool, n: usize, data: Vec<u8>) -> Vec<u8> {
 
 #[test]
 fn every_file_format_gives_the_same_answer() {
-    let bench = Bench::empty();
+    let bench = Bench::new();
     // Not symmetric, so that a transposed map would be noticed; all heights are exact in f32.
     let n = 32;
     let heights = Array2::from_shape_fn((n, n), |(i, j)| -((i * i + 3 * j) as f64) / 4096.0);
@@ -282,18 +231,21 @@ fn every_file_format_gives_the_same_answer() {
         ("text", lines.collect::<Vec<_>>().join("\n").into_bytes()),
     ];
     for (name, content) in &files {
-        fs::write(bench.0.path().join(name), content).unwrap();
+        fs::write(bench.path(name), content).unwrap();
         let output = bench.run(&format!("solve --heights {name} --mean-gap 0.05 --no-pictures --out out-{name}"));
         assert_eq!(output.status.code(), Some(0), "{name}: {}", text(&output.stderr));
         for field in FIELDS {
-            assert!(bench.bytes(&format!("out-{name}"), field) == bench.bytes("out-little", field), "{name} {field}");
+            assert!(
+                bench.bytes(&format!("out-{name}/{field}")) == bench.bytes(&format!("out-little/{field}")),
+                "{name} {field}"
+            );
         }
     }
 }
 
 #[test]
 fn adhesion_adds_contact_and_tells_if_it_is_under_resolved() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     for law in ["maugis-dugdale", "exponential"] {
         let options = format!("--mean-gap 0.0429 --law {law} --work-of-adhesion 1e-4");
         let bare = bench.solve("--mean-gap 0.0429 --force", "bare", 0);
@@ -307,7 +259,7 @@ fn adhesion_adds_contact_and_tells_if_it_is_under_resolved() {
         assert!(number(&sticky, "contact_nodes") > number(&bare, "contact_nodes"));
         assert!(number(&sticky, "adhesive_energy") < 0.0);
         // The contact pressure is the full pressure plus the traction, which is w/rho where there is no gap.
-        let [gap, pressure, contact] = FIELDS.map(|name| bench.field(law, name));
+        let [gap, pressure, contact] = FIELDS.map(|name| bench.field(&format!("{law}/{name}")));
         assert_complementary(&gap, &contact);
         let inside = gap.iter().zip(&pressure).zip(&contact).filter(|((g, _), _)| **g == 0.0);
         inside.for_each(|((_, p), c)| assert!((c - p - 1e-4 / 4e-3).abs() < 1e-9));
@@ -323,7 +275,7 @@ fn adhesion_adds_contact_and_tells_if_it_is_under_resolved() {
 
 #[test]
 fn a_given_start_saves_iterations() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let first = bench.solve("--mean-pressure 2e-4 --no-pictures", "first", 0);
     let second = bench.solve("--mean-pressure 2e-4 --no-pictures --initial-gap first/gap.npy", "second", 0);
     assert!(number(&second, "iterations") < 0.5 * number(&first, "iterations"));
@@ -333,9 +285,9 @@ fn a_given_start_saves_iterations() {
 
 #[test]
 fn nested_grids_give_the_same_and_say_what_they_took() {
-    let bench = Bench::empty();
+    let bench = Bench::new();
     let wavy = Surface::from_fn(Grid::square(256, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
-    write_npy(bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
+    write_npy(bench.path("heights.npy"), wavy.unwrap().heights()).unwrap();
     for load in ["--mean-pressure 0.02", "--mean-gap 0.01"] {
         let single = bench.solve(&format!("{load} --no-pictures --force --nested --no-nested"), "single", 0);
         let nested = bench.solve(&format!("{load} --no-pictures --force --nested"), "nested", 0);
@@ -377,9 +329,9 @@ fn nested_grids_give_the_same_and_say_what_they_took() {
 
 #[test]
 fn lines_and_rectangles_have_sensible_lengths() {
-    let (bench, hertz) = (Bench::empty(), hertz(64));
+    let (bench, hertz) = (Bench::new(), hertz(64));
     let line = hertz.row(32).to_owned().insert_axis(ndarray::Axis(1));
-    write_npy(bench.0.path().join("heights.npy"), &line).unwrap();
+    write_npy(bench.path("heights.npy"), &line).unwrap();
     for (arguments, lengths) in
         [("--lengths 2", json!([2.0, 2.0])), ("--lengths 2 3", json!([2.0, 3.0])), ("", json!([1.0, 1.0]))]
     {
@@ -387,7 +339,7 @@ fn lines_and_rectangles_have_sensible_lengths() {
         assert_eq!((&report["shape"], &report["lengths"]), (&json!([64, 1]), &lengths));
     }
     assert_eq!(bench.names("line"), RESULTS);
-    write_npy(bench.0.path().join("heights.npy"), &Array2::from_shape_fn((64, 32), |(i, j)| hertz[[i, j]])).unwrap();
+    write_npy(bench.path("heights.npy"), &Array2::from_shape_fn((64, 32), |(i, j)| hertz[[i, j]])).unwrap();
     for (arguments, lengths) in
         [("--lengths 2", json!([2.0, 1.0])), ("--lengths 2 3", json!([2.0, 3.0])), ("", json!([1.0, 1.0]))]
     {
@@ -398,17 +350,17 @@ fn lines_and_rectangles_have_sensible_lengths() {
 
 #[test]
 fn results_are_replaced_only_with_force() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     bench.solve("--mean-gap 0.0398", "results", 0);
-    fs::write(bench.0.path().join("results/notes.txt"), "mine").unwrap();
-    let before = bench.bytes("results", "gap.npy");
+    fs::write(bench.path("results/notes.txt"), "mine").unwrap();
+    let before = bench.bytes("results/gap.npy");
     let refused = bench.run("solve --heights heights.npy --mean-gap 0.03 --out results");
     assert_eq!(refused.status.code(), Some(1));
     assert!(text(&refused.stderr).contains("--force"));
-    assert!(bench.bytes("results", "gap.npy") == before);
+    assert!(bench.bytes("results/gap.npy") == before);
     bench.solve("--mean-gap 0.03 --force", "results", 0);
-    assert!(bench.bytes("results", "gap.npy") != before);
-    assert_eq!(bench.bytes("results", "notes.txt"), b"mine");
+    assert!(bench.bytes("results/gap.npy") != before);
+    assert_eq!(bench.bytes("results/notes.txt"), b"mine");
     assert_eq!(bench.names("results").len(), RESULTS.len() + 1);
     // results of a run that failed are in nobody's way
     bench.solve("--mean-gap 0.03 --max-iterations 1", "failed", 2);
@@ -418,7 +370,7 @@ fn results_are_replaced_only_with_force() {
 
 #[test]
 fn a_tension_without_adhesion_is_refused() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     for load in ["--mean-pressure=-0.01", "--normal-force=-1", "--reduced-pressure=-0.1"] {
         let refused = bench.run(&format!("solve --heights heights.npy {load} --out results"));
         let said = text(&refused.stderr);
@@ -430,7 +382,7 @@ fn a_tension_without_adhesion_is_refused() {
 
 #[test]
 fn a_load_that_is_not_met_is_said_alone() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let made = bench.run("surface --form sphere --radius 2 --size 32 --lengths 0.4 --quiet --out tip.npz");
     assert!(made.status.success());
     let spring = "--boundary free --spring-stiffness 1e-6 --spring-position=-0.1";
@@ -443,7 +395,7 @@ fn a_load_that_is_not_met_is_said_alone() {
 
 #[test]
 fn what_did_not_converge_is_written_and_said() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     for (arguments, status, remedy) in [
         ("--mean-gap 0.0398 --max-iterations 2", "iteration-limit", "--max-iterations"),
         ("--mean-gap 0.0398 --precision f32 --tolerance 1e-12", "stalled", "--precision f64"),
@@ -463,21 +415,21 @@ fn what_did_not_converge_is_written_and_said() {
             assert!(report[key].is_f64(), "{arguments}: {key} is {}", report[key]);
         }
         for name in FIELDS {
-            assert!(bench.field(status, name).iter().all(|v| v.is_finite()), "{arguments}: {name}");
+            assert!(bench.field(&format!("{status}/{name}")).iter().all(|v| v.is_finite()), "{arguments}: {name}");
         }
     }
 }
 
 #[test]
 fn bad_input_is_refused_on_one_line_and_writes_nothing() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let mut missing = hertz(8);
     missing[[3, 5]] = f64::NAN;
     missing[[7, 0]] = f64::NAN;
     for (name, field) in [("missing.npy", missing), ("small.npy", hertz(8)), ("negative.npy", hertz(64) - 1e-9)] {
-        write_npy(bench.0.path().join(name), &field).unwrap();
+        write_npy(bench.path(name), &field).unwrap();
     }
-    fs::write(bench.0.path().join("words.txt"), "one two\n").unwrap();
+    fs::write(bench.path("words.txt"), "one two\n").unwrap();
     let before = bench.names(".");
     let good = "--heights heights.npy --mean-gap 0.0398";
     for (arguments, parts) in [
@@ -530,7 +482,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
 
 #[test]
 fn folders_that_cannot_be_written_are_refused() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let solve = "solve --heights heights.npy --mean-gap 0.0398 --out";
     for arguments in
         [format!("{solve} heights.npy"), format!("{solve} heights.npy/below"), "demo --out heights.npy".into()]
@@ -555,22 +507,25 @@ fn folders_that_cannot_be_written_are_refused() {
 #[test]
 #[cfg(feature = "parallel")]
 fn threads_do_not_change_a_bit() {
-    let bench = Bench::empty();
+    let bench = Bench::new();
     let wavy = Surface::from_fn(Grid::square(150, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
-    write_npy(bench.0.path().join("heights.npy"), wavy.unwrap().heights()).unwrap();
+    write_npy(bench.path("heights.npy"), wavy.unwrap().heights()).unwrap();
     let options = "--mean-pressure 0.02 --law exponential --work-of-adhesion 1e-4 --range 4e-3";
     for threads in [1, 2, 3] {
         let report = bench.solve(&format!("{options} --threads {threads}"), &format!("by-{threads}"), 0);
         assert_eq!(report["threads"], threads);
         for name in RESULTS.iter().filter(|name| !["report.json", "scene.toml"].contains(name)) {
-            assert!(bench.bytes(&format!("by-{threads}"), name) == bench.bytes("by-1", name), "{threads}: {name}");
+            assert!(
+                bench.bytes(&format!("by-{threads}/{name}")) == bench.bytes(&format!("by-1/{name}")),
+                "{threads}: {name}"
+            );
         }
     }
 }
 
 #[test]
 fn quiet_is_quiet_and_a_reader_that_left_does_no_harm() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let arguments = "solve --heights heights.npy --mean-gap 0.0398 --no-pictures --out";
     let output = bench.run(&format!("{arguments} quiet --quiet"));
     assert_eq!((output.status.code(), output.stdout.len(), said(&output)), (Some(0), 0, String::new()));
@@ -589,7 +544,7 @@ fn quiet_is_quiet_and_a_reader_that_left_does_no_harm() {
 
 #[test]
 fn help_and_version() {
-    let bench = Bench::empty();
+    let bench = Bench::new();
     for (arguments, parts) in [
         ("--help", vec!["demo", "solve", "Examples"]),
         ("demo --help", vec!["--out", "asperity-demo"]),
@@ -621,7 +576,7 @@ fn help_and_version() {
 
 #[test]
 fn stability_is_in_the_report_and_its_mode_beside_it() {
-    let bench = Bench::new();
+    let bench = paraboloid();
     let law = "--law exponential --work-of-adhesion 1e-4 --range 4e-3";
     let report = bench.solve(&format!("--mean-gap 0.043 --stability {law}"), "held", 0);
     let stability = &report["stability"];
@@ -629,9 +584,9 @@ fn stability_is_in_the_report_and_its_mode_beside_it() {
     let number = |name: &str| stability[name].as_f64().unwrap();
     assert!(number("lower_bound") > 0.0 && number("lower_bound") <= number("eigenvalue"));
     assert!(number("error_bound") >= report["relative_error"].as_f64().unwrap());
-    let mode = bench.field("held", "mode.npy");
+    let mode = bench.field("held/mode.npy");
     assert!((mode.mapv(|value| value * value).mean().unwrap() - 1.0).abs() < 1e-9);
-    let (gap, none) = (bench.field("held", "gap.npy"), bench.solve("--mean-gap 0.04", "plain", 0));
+    let (gap, none) = (bench.field("held/gap.npy"), bench.solve("--mean-gap 0.04", "plain", 0));
     assert!(gap.iter().zip(&mode).all(|(gap, mode)| *gap > 0.0 || *mode == 0.0));
     assert_eq!(none["stability"], Value::Null);
     assert_eq!(bench.names("plain"), RESULTS);

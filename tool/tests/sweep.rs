@@ -1,7 +1,6 @@
 //! `asperity sweep`, end to end.
 
 use std::fs;
-use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
@@ -10,73 +9,28 @@ use asperity::{Grid, Surface};
 use asperity_maps::io::{read_field, write_npy};
 use ndarray::Array2;
 use serde_json::Value;
-use tempfile::TempDir;
 
-/// A folder with a wavy surface in it, in which the tool is run.
-struct Bench(TempDir);
+use crate::bench::{Bench, text};
 
-impl Bench {
-    fn new(n: usize) -> Self {
-        let bench = Self(tempfile::tempdir().unwrap());
-        write_npy(bench.path("heights.npy"), &wavy(n)).unwrap();
-        bench
-    }
+/// A folder with a wavy surface.
+fn bench(n: usize) -> Bench {
+    Bench::with(&wavy(n))
+}
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
+fn sweep_command(bench: &Bench, arguments: &str) -> Command {
+    bench.command(&format!("sweep --heights heights.npy {arguments}"))
+}
 
-    fn command(&self, arguments: &str) -> Command {
-        self.command_of("sweep", arguments)
-    }
+/// Expects a refusal on one line with these parts in it.
+#[track_caller]
+fn refuse(bench: &Bench, arguments: &str, parts: &[&str]) {
+    bench.refused_with(&format!("sweep --heights heights.npy {arguments}"), parts);
+}
 
-    fn command_of(&self, name: &str, arguments: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args([name, "--heights", "heights.npy"]).args(arguments.split_whitespace());
-        command
-    }
-
-    /// Follows a cycle to the end, and expects this exit code.
-    #[track_caller]
-    fn cycle(&self, arguments: &str, code: i32) -> Output {
-        let output = self.command_of("cycle", arguments).output().unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments}: {}", text(&output.stderr));
-        output
-    }
-
-    /// Sweeps to the end, and expects this exit code.
-    #[track_caller]
-    fn sweep(&self, arguments: &str, code: i32) -> Output {
-        let output = self.command(arguments).output().unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments}: {}", text(&output.stderr));
-        output
-    }
-
-    /// Expects a refusal on one line with these parts in it.
-    #[track_caller]
-    fn refuse(&self, arguments: &str, parts: &[&str]) {
-        let output = self.sweep(arguments, 1);
-        let error = text(&output.stderr);
-        assert_eq!((error.lines().count(), output.stdout.len()), (1, 0), "{arguments}: {error}");
-        assert!(parts.iter().all(|part| error.contains(part)), "{arguments}: {error}");
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.path(name)).unwrap()
-    }
-
-    /// How many complete rows a table has.
-    fn rows(&self, name: &str) -> usize {
-        let table = fs::read_to_string(self.path(name)).unwrap_or_default();
-        table.matches('\n').count().saturating_sub(usize::from(table.starts_with("control,")))
-    }
-
-    fn names(&self, folder: &str) -> Vec<String> {
-        let entries = fs::read_dir(self.path(folder)).unwrap();
-        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
+/// How many complete rows a table has.
+fn count_rows(bench: &Bench, name: &str) -> usize {
+    let table = fs::read_to_string(bench.path(name)).unwrap_or_default();
+    table.matches('\n').count().saturating_sub(usize::from(table.starts_with("control,")))
 }
 
 fn wavy(n: usize) -> Array2<f64> {
@@ -84,10 +38,6 @@ fn wavy(n: usize) -> Array2<f64> {
     let height =
         |x: f64, y: f64| 0.01 * wave(3.0, x) * wave(4.0, x + y) + 0.01 * (wave(1.0, y) + 0.7 * wave(2.0, x - y));
     Surface::from_fn(Grid::square(n, 1.0).unwrap(), height).unwrap().heights().clone()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// The column of a table, as numbers.
@@ -98,8 +48,8 @@ fn column(table: &str, name: &str) -> Vec<f64> {
 
 #[test]
 fn a_sweep_writes_a_row_for_each_load() {
-    let bench = Bench::new(64);
-    let output = bench.sweep("--mean-pressures 1e-3:4e-3:3:log,0.01 --out new/sweep.csv", 0);
+    let bench = bench(64);
+    let output = bench.ends("sweep", "--mean-pressures 1e-3:4e-3:3:log,0.01 --out new/sweep.csv", 0);
     assert_eq!(text(&output.stdout).lines().count(), 5);
     assert_eq!(output.stderr.len(), 0);
     let table = bench.read("new/sweep.csv");
@@ -133,7 +83,7 @@ fn a_sweep_writes_a_row_for_each_load() {
     }
 
     // JSON lines say the same
-    bench.sweep("--mean-pressures 1e-3,2e-3,4e-3,1e-2 --quiet --threads 1 --out sweep.jsonl", 0);
+    bench.ends("sweep", "--mean-pressures 1e-3,2e-3,4e-3,1e-2 --quiet --threads 1 --out sweep.jsonl", 0);
     for (object, row) in bench.read("sweep.jsonl").lines().zip(table.lines().skip(1)) {
         assert!(serde_json::from_str::<Value>(object).unwrap().is_object());
         // as text, which reading would round
@@ -146,7 +96,7 @@ fn a_sweep_writes_a_row_for_each_load() {
 
 /// Waits until a table has so many rows, and kills what writes it.
 fn kill_at(child: &mut Child, bench: &Bench, name: &str, rows: usize) {
-    while bench.rows(name) < rows && child.try_wait().unwrap().is_none() {
+    while count_rows(bench, name) < rows && child.try_wait().unwrap().is_none() {
         sleep(Duration::from_millis(1));
     }
     child.kill().unwrap();
@@ -155,26 +105,26 @@ fn kill_at(child: &mut Child, bench: &Bench, name: &str, rows: usize) {
 
 #[test]
 fn a_sweep_that_is_killed_goes_on_where_it_was() {
-    let bench = Bench::new(192);
+    let bench = bench(192);
     for (options, loads, rows) in [
         ("", "--mean-pressures 1e-3:0.02:30", 30),
         ("--law exponential --work-of-adhesion 1e-5 --range 2e-3", "--mean-gaps 0.03:0.02:12,0.02:0.03:12", 24),
         ("--precision f32 --tolerance 1e-4", "--mean-pressures 2e-3:0.02:30:log", 30),
     ] {
-        bench.sweep(&format!("{options} {loads} --quiet --force --out whole.csv"), 0);
+        bench.ends("sweep", &format!("{options} {loads} --quiet --force --out whole.csv"), 0);
         let arguments = format!("{options} {loads} --quiet --out killed.csv");
         let mut seen = 0;
         for kill in 1..=4 {
-            let mut child = bench.command(&arguments).stderr(Stdio::null()).spawn().unwrap();
+            let mut child = sweep_command(&bench, &arguments).stderr(Stdio::null()).spawn().unwrap();
             kill_at(&mut child, &bench, "killed.csv", 4 * kill);
-            let kept = bench.rows("killed.csv");
+            let kept = count_rows(&bench, "killed.csv");
             // one that was killed before may have left a row without its state, which is taken back
             assert!((seen..=rows).contains(&(kept + 1)), "{kept} rows after {seen}");
             seen = kept;
         }
         let whole = bench.read("whole.csv");
         assert!(whole.starts_with(bench.read("killed.csv").rsplit_once('\n').unwrap().0));
-        bench.sweep(&arguments, 0);
+        bench.ends("sweep", &arguments, 0);
         assert!(bench.read("killed.csv") == whole, "{arguments}");
         for name in ["killed.csv", "killed.csv.scene.toml", "killed.csv.state"] {
             fs::remove_file(bench.path(name)).unwrap();
@@ -184,16 +134,16 @@ fn a_sweep_that_is_killed_goes_on_where_it_was() {
 
 #[test]
 fn a_last_row_that_is_not_whole_is_made_again() {
-    let bench = Bench::new(48);
+    let bench = bench(48);
     let loads: Vec<String> = (1..=5).map(|k| format!("{}", f64::from(k) * 0.002)).collect();
     let arguments = |k: usize| format!("--mean-pressures {} --out sweep.csv", loads[..k].join(","));
-    bench.sweep(&arguments(5), 0);
+    bench.ends("sweep", &arguments(5), 0);
     let whole = bench.read("sweep.csv");
     let ends: Vec<usize> = whole.match_indices('\n').map(|(at, _)| at + 1).collect();
     for (k, length) in [(3, ends[3] + 1), (3, ends[4] - 1), (3, ends[4]), (4, ends[4] + 40), (5, ends[5])] {
-        bench.sweep(&format!("{} --force", arguments(k)), 0);
+        bench.ends("sweep", &format!("{} --force", arguments(k)), 0);
         fs::write(bench.path("sweep.csv"), &whole[..length]).unwrap();
-        let output = bench.sweep(&arguments(5), 0);
+        let output = bench.ends("sweep", &arguments(5), 0);
         assert!(text(&output.stdout).contains(&format!("{k} of 5 rows already")));
         assert_eq!(bench.read("sweep.csv"), whole);
     }
@@ -201,9 +151,9 @@ fn a_last_row_that_is_not_whole_is_made_again() {
 
 #[test]
 fn the_file_of_another_sweep_is_refused_and_kept() {
-    let bench = Bench::new(32);
+    let bench = bench(32);
     let good = "--mean-pressures 2e-3,4e-3 --out sweep.csv";
-    bench.sweep(good, 0);
+    bench.ends("sweep", good, 0);
     write_npy(bench.path("start.npy"), &Array2::from_elem((32, 32), 0.01)).unwrap();
     let (before, names) = (bench.read("sweep.csv"), bench.names("."));
     for (arguments, part) in [
@@ -220,27 +170,27 @@ fn the_file_of_another_sweep_is_refused_and_kept() {
         ("--mean-pressures 2e-3,5e-3 --out sweep.csv".to_owned(), "first 2 loads"),
         ("--mean-pressures 2e-3 --out sweep.csv".to_owned(), "first 2 loads"),
     ] {
-        bench.refuse(&arguments, &["sweep.csv", "another run", part, "--force"]);
+        refuse(&bench, &arguments, &["sweep.csv", "another run", part, "--force"]);
         assert_eq!((bench.read("sweep.csv"), bench.names(".")), (before.clone(), names.clone()), "{arguments}");
     }
     let mut heights = wavy(32);
     heights[[3, 4]] += 1e-9;
     write_npy(bench.path("heights.npy"), &heights).unwrap();
-    bench.refuse(good, &["another file of its heights"]);
+    refuse(&bench, good, &["another file of its heights"]);
     write_npy(bench.path("heights.npy"), &wavy(32)).unwrap();
-    bench.sweep(good, 0);
+    bench.ends("sweep", good, 0);
     assert_eq!(bench.read("sweep.csv"), before);
 
     fs::write(bench.path("notes.csv"), "mine\n").unwrap();
-    bench.refuse("--mean-pressures 2e-3 --out notes.csv", &["notes.csv", "exists", "--force"]);
+    refuse(&bench, "--mean-pressures 2e-3 --out notes.csv", &["notes.csv", "exists", "--force"]);
     assert_eq!(bench.read("notes.csv"), "mine\n");
-    bench.sweep("--mean-pressures 2e-3 --out notes.csv --force", 0);
-    assert_eq!(bench.rows("notes.csv"), 1);
+    bench.ends("sweep", "--mean-pressures 2e-3 --out notes.csv --force", 0);
+    assert_eq!(count_rows(&bench, "notes.csv"), 1);
 }
 
 #[test]
 fn bad_lists_and_files_are_refused() {
-    let bench = Bench::new(16);
+    let bench = bench(16);
     for (arguments, parts) in [
         ("--out sweep.csv", vec!["--mean-gaps", "--mean-pressures"]),
         ("--mean-gaps 0.1 --mean-pressures 0.1 --out sweep.csv", vec!["cannot be used with"]),
@@ -258,25 +208,25 @@ fn bad_lists_and_files_are_refused() {
         ("--mean-gaps 0.1 --law exponential --out sweep.csv", vec!["--work-of-adhesion"]),
         ("--mean-gaps 0.1 --out heights.npy/sweep.csv", vec!["heights.npy", "is not a folder"]),
     ] {
-        bench.refuse(arguments, &parts);
+        refuse(&bench, arguments, &parts);
         assert_eq!(bench.names("."), ["heights.npy"], "{arguments}");
     }
-    let empty = bench.command("--out sweep.csv").args(["--mean-gaps", ""]).output().unwrap();
+    let empty = sweep_command(&bench, "--out sweep.csv").args(["--mean-gaps", ""]).output().unwrap();
     assert_eq!((empty.status.code(), text(&empty.stderr).lines().count()), (Some(1), 1));
     fs::create_dir(bench.path("folder.csv")).unwrap();
-    bench.refuse("--mean-gaps 0.1 --out folder.csv", &["folder.csv", "not a regular file"]);
+    refuse(&bench, "--mean-gaps 0.1 --out folder.csv", &["folder.csv", "not a regular file"]);
     if cfg!(target_os = "linux") {
-        bench.refuse("--mean-gaps 0.1 --out /proc/asperity/sweep.csv", &["/proc", "cannot be written"]);
-        bench.refuse("--mean-gaps 0.1 --out /dev/null --format csv", &["/dev/null", "not a regular file"]);
+        refuse(&bench, "--mean-gaps 0.1 --out /proc/asperity/sweep.csv", &["/proc", "cannot be written"]);
+        refuse(&bench, "--mean-gaps 0.1 --out /dev/null --format csv", &["/dev/null", "not a regular file"]);
     }
 }
 
 #[test]
 fn rows_that_did_not_converge_are_written_and_counted() {
-    let bench = Bench::new(32);
+    let bench = bench(32);
     let law = "--law exponential --work-of-adhesion 1e-5 --range 4e-3";
     let arguments = &format!("{law} --mean-pressures 4e-3,-1,4e-3 --out sweep.csv");
-    let first = bench.sweep(arguments, 2);
+    let first = bench.ends("sweep", arguments, 2);
     let warning = text(&first.stderr);
     assert!(warning.contains("1 of 3 rows") && warning.lines().count() == 1, "{warning}");
     let table = bench.read("sweep.csv");
@@ -284,26 +234,26 @@ fn rows_that_did_not_converge_are_written_and_counted() {
     let ends: Vec<_> = table.lines().skip(1).map(|row| row.split(',').nth(status).unwrap()).collect();
     assert_eq!(ends, ["converged", "detached", "converged"]);
     // what there is already counts too
-    let again = bench.sweep(arguments, 2);
+    let again = bench.ends("sweep", arguments, 2);
     assert!(text(&again.stdout).contains("3 of 3 rows already") && text(&again.stderr).contains("1 of 3 rows"));
     assert_eq!(bench.read("sweep.csv"), table);
     assert!(!warning.contains("f64"), "{warning}");
-    let single = bench.sweep("--precision f32 --tolerance 1e-9 --mean-pressures 4e-3 --out single.csv", 2);
+    let single = bench.ends("sweep", "--precision f32 --tolerance 1e-9 --mean-pressures 4e-3 --out single.csv", 2);
     assert!(
         text(&single.stderr).contains("1 of 1 rows not converged") && text(&single.stderr).contains("--precision f64")
     );
 
     let law = "--law maugis-dugdale --work-of-adhesion 1e-4 --range 1e-3";
-    let output = bench.sweep(&format!("{law} --mean-gaps 0.03,0.02 --out unresolved.csv"), 0);
+    let output = bench.ends("sweep", &format!("{law} --mean-gaps 0.03,0.02 --out unresolved.csv"), 0);
     let warning = text(&output.stderr);
     assert!(warning.contains("mu_rho") && warning.lines().count() == 1, "{warning}");
 }
 
 #[test]
 fn fields_are_kept_for_every_load() {
-    let bench = Bench::new(32);
+    let bench = bench(32);
     let arguments = "--mean-gaps 0.02,0.01 --fields fields --out sweep.csv";
-    bench.sweep(arguments, 0);
+    bench.ends("sweep", arguments, 0);
     let names = ["contact_pressure-0001.npy", "contact_pressure-0002.npy", "gap-0001.npy", "gap-0002.npy"];
     assert_eq!(bench.names("fields")[..4], names);
     assert_eq!(bench.names("fields").len(), 6);
@@ -312,11 +262,11 @@ fn fields_are_kept_for_every_load() {
     let table = bench.read("sweep.csv");
     let contact = second.iter().filter(|gap| **gap == 0.0).count() as f64 / 1024.0;
     assert_eq!(column(&table, "contact_fraction")[1], contact);
-    bench.refuse("--mean-gaps 0.02,0.01 --fields fields --out other.csv", &["gap-0001.npy", "exists", "--force"]);
-    bench.refuse("--mean-gaps 0.02,0.01 --out sweep.csv", &["another run", "fields"]);
+    refuse(&bench, "--mean-gaps 0.02,0.01 --fields fields --out other.csv", &["gap-0001.npy", "exists", "--force"]);
+    refuse(&bench, "--mean-gaps 0.02,0.01 --out sweep.csv", &["another run", "fields"]);
     // more loads continue from there
-    bench.sweep("--mean-gaps 0.02,0.01,0.005 --fields fields --out sweep.csv", 0);
-    assert!(bench.read("sweep.csv").starts_with(&table) && bench.rows("sweep.csv") == 3);
+    bench.ends("sweep", "--mean-gaps 0.02,0.01,0.005 --fields fields --out sweep.csv", 0);
+    assert!(bench.read("sweep.csv").starts_with(&table) && count_rows(&bench, "sweep.csv") == 3);
     assert_eq!(bench.names("fields").len(), 9);
 }
 
@@ -336,7 +286,7 @@ fn bench_help() -> Output {
 const CYCLE: &str = "--law exponential --work-of-adhesion 8e-5 --range 2e-3 --mean-gaps 0.03,0.02,0.03 --steps 20";
 
 fn bench_with_a_wave() -> Bench {
-    let bench = Bench::new(4);
+    let bench = bench(4);
     let wave = Surface::wave(Grid::line(64, 1.0).unwrap(), 0.02, 1).unwrap();
     write_npy(bench.path("heights.npy"), wave.heights()).unwrap();
     bench
@@ -345,7 +295,7 @@ fn bench_with_a_wave() -> Bench {
 #[test]
 fn a_cycle_has_its_jumps_and_a_picture() {
     let bench = bench_with_a_wave();
-    let said = text(&bench.cycle(&format!("{CYCLE} --out cycle.csv --plot loop.png"), 0).stdout);
+    let said = text(&bench.ends("cycle", &format!("{CYCLE} --out cycle.csv --plot loop.png"), 0).stdout);
     for part in ["jump-in", "pull-off", "greatest tension", "dissipated in jumps"] {
         assert!(said.contains(part), "{said}");
     }
@@ -383,7 +333,7 @@ fn what_a_cycle_asks_for_is_said_before_its_first_state() {
     let loads = "--mean-gaps 0.05,0.02,0.05 --steps 4 --smallest-step 0.1";
     let adhesive = format!("{loads} --law exponential --work-of-adhesion 1e-4 --range 4e-3");
     let first = |arguments: &str| {
-        let said = text(&bench.cycle(arguments, 0).stdout);
+        let said = text(&bench.ends("cycle", arguments, 0).stdout);
         said.lines().next().unwrap_or_default().to_owned()
     };
     let asked = "9 states or more, 2 legs of 4 steps: about ";
@@ -395,7 +345,7 @@ fn what_a_cycle_asks_for_is_said_before_its_first_state() {
     assert_eq!(bench.read("a.csv"), bench.read("b.csv"));
     // a cycle that continues says how far it was, and a report has no time
     assert!(first(&format!("{adhesive} --out a.csv")).starts_with("a.csv has "));
-    let report = text(&bench.cycle(&format!("{adhesive} --out c.csv --json"), 0).stdout);
+    let report = text(&bench.ends("cycle", &format!("{adhesive} --out c.csv --json"), 0).stdout);
     assert!(report.starts_with('{') && !report.contains("about"), "{report}");
     assert_eq!(bench.read("a.csv"), bench.read("c.csv"));
 }
@@ -403,26 +353,26 @@ fn what_a_cycle_asks_for_is_said_before_its_first_state() {
 #[test]
 fn an_interrupted_cycle_goes_on_to_the_same_file() {
     let bench = bench_with_a_wave();
-    bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);
+    bench.ends("cycle", &format!("{CYCLE} --quiet --out whole.csv"), 0);
     let whole = bench.read("whole.csv");
     for pause in [20, 60, 150] {
         let name = format!("{pause}.csv");
         let arguments = format!("{CYCLE} --quiet --out {name}");
-        let mut child = bench.command_of("cycle", &arguments).spawn().unwrap();
+        let mut child = bench.command(&format!("cycle --heights heights.npy {arguments}")).spawn().unwrap();
         sleep(Duration::from_millis(pause));
         let _ = child.kill();
         child.wait().unwrap();
-        bench.cycle(&arguments, 0);
+        bench.ends("cycle", &arguments, 0);
         assert_eq!(bench.read(&name), whole);
     }
     // and there is nothing to add to it
-    bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);
+    bench.ends("cycle", &format!("{CYCLE} --quiet --out whole.csv"), 0);
     assert_eq!(bench.read("whole.csv"), whole);
 }
 
 #[test]
 fn what_is_interrupted_on_a_free_half_space_goes_on_to_the_same_file() {
-    let bench = Bench::new(4);
+    let bench = bench(4);
     let tip = Surface::paraboloid(Grid::square(32, 1.0).unwrap(), 2.0).unwrap();
     write_npy(bench.path("heights.npy"), tip.heights()).unwrap();
     let law = "--law exponential --work-of-adhesion 1e-4 --range 8e-3";
@@ -437,8 +387,9 @@ fn what_is_interrupted_on_a_free_half_space_goes_on_to_the_same_file() {
     {
         let [whole, killed] = ["whole", "killed"].map(|name| format!("{name}-{k}.csv"));
         let follow = |name: &str| {
-            let mut command =
-                bench.command_of(command, &format!("{options} --boundary free --quiet --threads 1 --out {name}"));
+            let mut command = bench.command(&format!(
+                "{command} --heights heights.npy {options} --boundary free --quiet --threads 1 --out {name}"
+            ));
             command.stderr(Stdio::null());
             command
         };
@@ -454,10 +405,10 @@ fn what_is_interrupted_on_a_free_half_space_goes_on_to_the_same_file() {
 #[test]
 fn a_row_of_a_cycle_that_is_ahead_of_its_state_is_made_again() {
     let bench = bench_with_a_wave();
-    bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);
+    bench.ends("cycle", &format!("{CYCLE} --quiet --out whole.csv"), 0);
     let whole = bench.read("whole.csv");
     let arguments = format!("{CYCLE} --quiet --out killed.csv");
-    let mut child = bench.command_of("cycle", &arguments).spawn().unwrap();
+    let mut child = bench.command(&format!("cycle --heights heights.npy {arguments}")).spawn().unwrap();
     kill_at(&mut child, &bench, "killed.csv", 5);
     let path = bench.path("killed.csv.state");
     let state = fs::read(&path).unwrap();
@@ -470,7 +421,7 @@ fn a_row_of_a_cycle_that_is_ahead_of_its_state_is_made_again() {
         fs::write(bench.path("killed.csv"), &whole[..length.min(whole.len())]).unwrap();
         fs::write(&path, &state).unwrap();
         if length >= ends[rows] {
-            bench.cycle(&arguments, 0);
+            bench.ends("cycle", &arguments, 0);
             assert_eq!(bench.read("killed.csv"), whole, "{rows} {length}");
         }
     }
@@ -479,7 +430,7 @@ fn a_row_of_a_cycle_that_is_ahead_of_its_state_is_made_again() {
 #[test]
 fn bad_cycles_are_refused_on_one_line() {
     let bench = bench_with_a_wave();
-    bench.cycle(&format!("{CYCLE} --quiet --out cycle.csv"), 0);
+    bench.ends("cycle", &format!("{CYCLE} --quiet --out cycle.csv"), 0);
     for (arguments, part) in [
         ("--mean-gaps 0.03 --out a.csv", "two turning points"),
         ("--mean-gaps 0.03,0.02 --out a.txt", ".csv"),
@@ -489,7 +440,7 @@ fn bad_cycles_are_refused_on_one_line() {
         ("--out a.csv", "--mean-gaps"),
         ("--mean-gaps 0.03,0.02 --out cycle.csv", "another run"),
     ] {
-        let output = bench.cycle(arguments, 1);
+        let output = bench.ends("cycle", arguments, 1);
         let error = text(&output.stderr);
         assert!(error.lines().count() == 1 && error.contains(part), "{arguments}: {error}");
     }
