@@ -3,6 +3,7 @@
 import inspect
 import operator
 import pathlib
+import pickle
 
 import pytest
 
@@ -38,3 +39,26 @@ def test_reports_have_the_keys_of_the_program():
     promised = tomllib.loads(FILE.read_text())["reports"]["solve"]
     keys = {key for kind in ("numbers", "texts", "truths", "lists", "tables") for key in promised[kind].split()}
     assert {key for key in keys if "." not in key} - set(report) == set()
+
+
+@pytest.mark.parametrize(
+    ("place", "name"),
+    [
+        ("_accuracy", "Plan"),
+        ("_body", "Coating"),
+        ("_cycle", "Cycle"),
+        ("_flow", "Leakage"),
+        ("_interface", "Interface"),
+        ("_pull_off", "PullOff"),
+        ("_solution", "Solution"),
+        ("_stability", "Stability"),
+        ("_sweep", "Sweep"),
+        ("_topography", "Topography"),
+        ("_viscoelastic", "Moment"),
+        ("_wall", "Penalty"),
+        ("curves.maps", "CurveMap"),
+        ("curves.read", "ForceCurve"),
+    ],
+)
+def test_pickles_of_earlier_versions_find_their_classes(place, name):
+    assert pickle.loads(f"casperity.{place}\n{name}\n.".encode()) is getattr(asperity, name)
