@@ -389,7 +389,7 @@ def test_offsets_of_lines_along_the_other_axis_are_a_warning():
     x = np.linspace(0.0, 1.0, 96, endpoint=False)
     smooth = 0.02 * np.sin(2 * np.pi * 3 * x[:, None]) * np.cos(2 * np.pi * 2 * x)
     image = smooth + 0.02 * np.random.default_rng(1).normal(size=(96, 1))  # each row is a scan line
-    with pytest.warns(asperity.InputWarning, match="scan-axis: lines along y are offset .* those along x") as caught:
+    with pytest.warns(asperity.InputWarning, match="scan-axis: lines along y are offset .* as lines along x") as caught:
         asperity.prepare(image, 1.0, align_rows="median")
     assert caught[0].filename == __file__
     aligned = asperity.prepare(image, 1.0, align_rows="median", axes="yx")

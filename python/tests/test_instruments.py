@@ -86,12 +86,12 @@ def test_what_is_no_height_is_no_channel():
         return SimpleNamespace(index=index, name=name, unit=unit, is_height_channel=is_height)
 
     height, phase, error = channel(0, "Z"), channel(1, "Phase", is_height=False), channel(2, "Error", ("nm", None))
-    assert instruments._chosen([height, phase, error], None, "scan.spm") is height
+    assert instruments._choose([height, phase, error], None, "scan.spm") is height
     for asked in (1, "Phase", 2, "Error"):
         with pytest.raises(ValueError, match='scan.spm: holds 3 channels, of heights are 0 "Z", and channel'):
-            instruments._chosen([height, phase, error], asked, "scan.spm")
+            instruments._choose([height, phase, error], asked, "scan.spm")
     with pytest.raises(ValueError, match="none of them of heights"):
-        instruments._chosen([phase, error], None, "scan.spm")
+        instruments._choose([phase, error], None, "scan.spm")
 
 
 def test_the_package_is_named_where_it_may_help(tmp_path, without):

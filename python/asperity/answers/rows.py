@@ -39,11 +39,14 @@ class Rows(Iterator[T]):
         kept = fields if fields is None else os.path.abspath(fields)
         path = None if out is None else os.path.abspath(out)
         table = None if path is None else (path, kept, force, *_law.fields(contact.own_law))
-        own = _TABLES.get(path or "")
-        if own is not None and not own._ended:
-            raise ValueError(f"{path} is held by a table of this process, {own!s}: run() that, or delete it by del")
         seed, first = contact.topography.seed, contact._start(start)
-        (names, rows), self._loads = contact.problem.begin(way, keys, first, (seed, table))
+        try:
+            (names, rows), self._loads = contact.problem.begin(way, keys, first, (seed, table))
+        except BlockingIOError:
+            own = _TABLES.get(path or "")
+            if own is None:
+                raise
+            raise ValueError(f"{path} is held by a table of this process, {own!s}: run() that, or delete it by del") from None
         if path is not None:
             _TABLES[path] = self
         #: the names of the columns, as in the tool's table

@@ -18,7 +18,8 @@ pub fn open_locked(path: &Path, waits: bool) -> asperity::Result<(File, bool)> {
     let file = opened.map_err(|e| Error::unwritable(path, e))?;
     match if waits { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
         Err(TryLockError::WouldBlock) => {
-            Err(Error::file(path, "another run is writing there: wait until it has ended, or choose another --out"))
+            let reason = "another run is writing there: wait until it has ended, or choose another --out";
+            Err(Error::caused(path, reason.to_owned(), io::Error::from(io::ErrorKind::WouldBlock)))
         }
         // not every file system has locks
         Ok(()) | Err(TryLockError::Error(_)) => Ok((file, made)),
