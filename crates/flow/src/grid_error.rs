@@ -12,8 +12,9 @@ const COARSE: f64 = 1e-4;
 /// corners it is 0.72.
 const SLOWEST: f64 = 0.7;
 
-/// The factor on what is left of the differences: their fall may slow down.
-const SAFETY: f64 = 1.5;
+/// The factor on what is left of the differences, whose fall may slow down. Where the gap is resolved, a third of the last
+/// difference is left.
+const SAFETY: f64 = 3.0;
 
 /// Keeps the differences of the transmissivities along both axes, relative to the finer grid, that are larger.
 fn keep_largest(differences: &mut [f64; 2], fine: &Leak, coarse: &Leak) {
@@ -32,7 +33,8 @@ impl Leakage {
     /// grids of half and of a quarter of the nodes hardly fall, as where open cells meet at corners.
     ///
     /// The network is right to second order in the spacing where the gap is resolved, and the difference is then three
-    /// times its error. Elsewhere, as at a constriction of a few nodes, both differences scatter, up to one and more.
+    /// times its error. Where it is not, three times what is left of the differences counts, as for cells that meet at
+    /// corners; at a constriction of a few nodes the differences scatter, up to one and more.
     /// The estimate is no bound, and does not contain the error of the gap itself.
     ///
     /// ```

@@ -4,6 +4,7 @@ use ndarray::Array2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+mod cells;
 mod conductance;
 mod leakage;
 mod percolation;
