@@ -127,6 +127,12 @@ __all__ = [
     "viscoelastic",
 ]
 
+
+def __dir__() -> list[str]:
+    """The names that are meant, and no modules that are used here."""
+    return __all__
+
+
 # modules by which pickles of earlier versions name the classes
 sys.modules.update(
     {

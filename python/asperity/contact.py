@@ -16,6 +16,11 @@ from .maps.arrays import read_field
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 
 
+def __dir__() -> list[str]:
+    """The names that are meant, and no modules that are used here."""
+    return __all__
+
+
 class Clusters(NamedTuple):
     """The pieces of a periodic map that hang together.
 

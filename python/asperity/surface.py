@@ -41,6 +41,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """The names that are meant, and no modules that are used here."""
+    return __all__
+
+
 class SurfaceStatistics(NamedTuple):
     """Moments of heights, slopes and curvatures; lengths in the unit of the heights.
 

@@ -1,5 +1,11 @@
-"""The recipes run as they stand, and what their page says of each holds."""
+"""The recipes run as they stand, print what their page shows, and what it says of each holds.
 
+    UPDATE=1 python -m pytest python/tests/test_recipes.py
+
+writes what they print into the page.
+"""
+
+import os
 import pathlib
 import re
 import runpy
@@ -13,7 +19,9 @@ import asperity
 
 MAP = runpy.run_path(str(pathlib.Path(__file__).resolve().parents[1] / "benches" / "curve_map.py"))
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python" / "recipes.md"
-RECIPES = dict(re.findall(r"^### (.*?)\n.*?^```python\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL))
+#: A recipe, and below it what it prints.
+RECIPE = re.compile(r"^### (.*?)\n.*?^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
+RECIPES = {title: code for title, code, _ in RECIPE.findall(PAGE.read_text())}
 
 
 def two_elastic_rough_bodies(found):
@@ -291,8 +299,25 @@ def write_map(path):
             formats.AFMForceDistance(data, here).export_data(file, metadata=True, fmt="hdf5")
 
 
+def written(title, printed):
+    """The page with what a recipe prints."""
+
+    def block(found):
+        whole, (start, end) = found[0], (found.start(), found.end(2) + len("```\n"))
+        shown = f"\n```text\n{printed}```\n" if printed else ""
+        return whole[: end - start] + shown if found[1] == title else whole
+
+    return RECIPE.sub(block, PAGE.read_text())
+
+
+def words_and_numbers(text):
+    """The words of a text, and its numbers, of which machines may round the last digits in other ways."""
+    number = r"[-+]?\d+(?:\.\d+)?(?:e[-+]\d+)?"
+    return re.split(number, text), [float(found) for found in re.findall(number, text)]
+
+
 @pytest.mark.parametrize("title", RECIPES)
-def test_the_recipe_runs(title, tmp_path, monkeypatch):
+def test_the_recipe_runs(title, tmp_path, monkeypatch, capsys):
     pytest.importorskip("matplotlib")
     pytest.importorskip("scipy")
     monkeypatch.chdir(tmp_path)
@@ -307,4 +332,10 @@ def test_the_recipe_runs(title, tmp_path, monkeypatch):
         np.savetxt("rough.csv", 1e9 * np.column_stack(cycled(tip, 2e9, 0.04, 10.0)), **heading)
     found = {}
     exec(RECIPES[title], found)
+    page = written(title, capsys.readouterr().out)
+    if os.environ.get("UPDATE"):
+        PAGE.write_text(page)
+    (words, numbers), (shown, known) = map(words_and_numbers, (page, PAGE.read_text()))
+    same = words == shown and np.allclose(numbers, known, rtol=0.01, atol=1e-14)
+    assert same, "it prints something else than its page shows: UPDATE=1 writes it there"
     globals()[re.sub(r"\W+", "_", title).lower()](found)

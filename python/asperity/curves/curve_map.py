@@ -262,7 +262,7 @@ def fit_curves(
         pairs: Sequence[Any] = found.pairs
         shape, sides = found.shape, found.lengths
         stiffness = found.stiffness if spring_stiffness is None else spring_stiffness
-        if tip is not None and not tip.is_si:
+        if tip is not None and not tip._solved.is_si:
             raise ValueError(f"{curves} is in SI units, and the table is {tip!r}: make it with units")
         keywords = read_request(radius, tip, stiffness, poisson, direction, model, jumps, "m", "N", True)
     else:

@@ -58,14 +58,14 @@ def read_request(
     if not isinstance(tip, TipTable | None):
         raise TypeError(f"tip is a {type(tip).__name__}: make its table first, tip=asperity.TipTable(heights, ...)")
     if tip is not None:
-        if spring_stiffness is not None and is_si != tip.is_si:
+        if spring_stiffness is not None and is_si != tip._solved.is_si:
             raise ValueError(f"spring_stiffness is {spring_stiffness!r}, and the table is {tip!r}: give all units, or none")
-        is_si = tip.is_si
+        is_si = tip._solved.is_si
     if direction not in (None, "approach", "withdrawal"):
         raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
     compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
     scipy("special")
-    shape = cast(Tip, tip or Paraboloid(_positive("radius", radius)))
+    shape = cast(Tip, tip._solved if tip else Paraboloid(_positive("radius", radius)))
     poisson = None if poisson is None else number("poisson", poisson)
     return Request(shape, compliance, direction, _models(shape, model), jumps, poisson, is_si, length_unit, force_unit)
 

@@ -35,3 +35,8 @@ __all__ = [
     "WavyLine",
     "closing_pressure_2d",
 ]
+
+
+def __dir__() -> list[str]:
+    """The names that are meant, and no modules that are used here."""
+    return __all__
