@@ -13,7 +13,7 @@ use crate::numbers::Field;
 use crate::pools::apart;
 use crate::refusal::refusal;
 use crate::report::reported;
-use crate::running::until_interrupted;
+use crate::running::{GoesOn, until_interrupted};
 
 /// The gap at a constriction, its node, and the nodes of the widest passage, in rows of two.
 type Narrowest<'py> = (f64, (usize, usize), Bound<'py, PyArray2<i64>>);
@@ -69,8 +69,9 @@ pub fn leakage<'py>(
     }
     let settings = Leakage::default().tolerance(tolerance).max_iterations(max_iterations);
     let asked = LeakAsked { boundary, absent_gap, settings, viscosity, grid_error: true };
-    let values = gap.as_array();
-    let find = |goes_on: &(dyn Fn() -> bool + Sync)| asked.find_while(gap_on(values, lengths, solved)?, goes_on);
+    // the thread may outlive this call
+    let values = gap.as_array().to_owned();
+    let find = move |goes_on: GoesOn<'_>| asked.find_while(gap_on(values.view(), lengths, solved)?, goes_on);
     let (leak, leaked) = until_interrupted(py, find)?.map_err(refusal)?;
     let found = PyDict::new(py);
     found.set_item("report", reported(py, &leaked)?)?;

@@ -77,7 +77,7 @@ fn refused(error: Error, also: &str) -> PyErr {
             "choose one, by asperity prepare --channel NUMBER",
             "choose one, by asperity.read(path, channel=NUMBER)",
         )
-        .replace("read it in Python by asperity.read, after pip install 'asperity[instruments]'; or open", "open")
+        .replace("read it in Python by asperity.read, after pip install", "pip install")
         .replace("by asperity prepare --skip-lines ", "by asperity.read(path, skip_lines=...), here ")
         .replace("by asperity prepare --missing-word ", "by asperity.read(path, missing_words=...), here ")
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")

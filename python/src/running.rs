@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use asperity::solver::Iteration as State;
@@ -77,12 +78,34 @@ pub struct At<'py> {
     pub observer: Option<Py<PyAny>>,
 }
 
-/// Does `work` on the shared pool and returns its result, or the exception of a signal, as by Ctrl-C, after which the
-/// work is told not to continue.
-pub fn until_interrupted<R: Send>(py: Python<'_>, work: impl FnOnce(GoesOn<'_>) -> R + Send) -> PyResult<R> {
-    let at = At { py, pool: Pool::of(None)?, observer: None };
-    let (found, raised) = at.run(|_, goes_on| work(goes_on))?;
-    raised.map_or(Ok(found), Err)
+/// Does `work` on a thread of its own, with the shared pool, and returns its result; or at once the exception of a signal,
+/// as of Ctrl-C, after which the work is told not to continue, and its result is dropped.
+pub fn until_interrupted<R: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(GoesOn<'_>) -> R + Send + 'static,
+) -> PyResult<R> {
+    let (pool, stop) = (Pool::of(None)?, Arc::new(AtomicBool::new(false)));
+    let (answer, answered) = mpsc::channel();
+    let stopped = Arc::clone(&stop);
+    let begun = thread::Builder::new().spawn(move || {
+        let found = pool.get().install(|| work(&|| !stopped.load(Ordering::Relaxed)));
+        // nobody hears it after an interruption
+        let _ = answer.send(found);
+    });
+    begun.map_err(|error| PyRuntimeError::new_err(format!("no thread is to be had: {error}")))?;
+    py.detach(move || {
+        loop {
+            match answered.recv_timeout(PATIENCE) {
+                Ok(found) => return Ok(found),
+                Err(RecvTimeoutError::Timeout) => {
+                    Python::attach(|py| py.check_signals()).inspect_err(|_| stop.store(true, Ordering::Relaxed))?
+                }
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(PyRuntimeError::new_err("the work ended without a result"));
+                }
+            }
+        }
+    })
 }
 
 impl At<'_> {

@@ -69,14 +69,14 @@ impl PaperOptions {
 }
 
 /// The widths of pictures that are not refused, in metres.
-const WIDTHS: std::ops::RangeInclusive<f64> = 0.04..=2.0;
+const WIDTHS: std::ops::RangeInclusive<f64> = 0.065..=2.0;
 
 /// A width in points of 1/72 inch, of a length with its unit.
 fn points(text: &str) -> Result<f64, String> {
     let found = LENGTH.within(Range::POSITIVE)(text).ok();
     let found = found.filter(|found| found.has_unit && WIDTHS.contains(&found.value));
     let points = |found: Quantity| found.value / 0.0254 * 72.0;
-    found.map(points).ok_or_else(|| "it must be a length with a unit, from 40mm to 2m, such as 85mm".to_owned())
+    found.map(points).ok_or_else(|| "it must be a length with a unit, from 65mm to 2m, such as 85mm".to_owned())
 }
 
 /// The colours of the maps of contact and pressure.

@@ -60,14 +60,14 @@ impl From<f64> for Paper {
 }
 
 /// The least width of a map or of the area of a chart, in points.
-const LEAST: f64 = 90.0;
+const LEAST: f64 = 40.0;
 
 impl Paper {
     /// The width of a map or chart next to which axes and bars take `beside`; `otherwise` where the paper has no width.
     fn across(&self, beside: f64, otherwise: f64) -> Result<f64> {
         let Some(value) = self.width else { return Ok(otherwise) };
         let left = value - beside;
-        let (name, requirement) = ("width of the picture in points", "wider, by 90 than axes and colour bars");
+        let (name, requirement) = ("width of the picture in points", "wider than axes and colour bars by 40");
         if left >= LEAST { Ok(left) } else { Err(Error::Value { name, value, requirement }) }
     }
 }

@@ -20,7 +20,7 @@ _LEFT_OUT = ("asc", "xyz", "npy", "npz", "gwy", "nms")
 #: The formats of arrays, in which y runs upwards; the others are images, with lines from the top.
 _ARRAYS = ("nc", "h5", "mat")
 #: What the refusal of a format that SurfaceTopography reads names, which may be the format of a text.
-_NAMED = "asperity[instruments]"
+_NAMED = "pip install 'asperity[instruments]'; or "
 #: The number of bytes by which readers know their formats.
 _START = 512
 
@@ -38,6 +38,7 @@ def read(path: str, channel: int | str | None, refused: ValueError) -> Topograph
         readers, match = formats.readers, formats.MagicMatch
     except (ImportError, AttributeError):
         raise refused from None
+    told = str(refused).replace(_NAMED, "")
     why = "the format is unknown to it"
     with open(path, "rb") as file:
         start = file.read(_START)
@@ -53,7 +54,7 @@ def read(path: str, channel: int | str | None, refused: ValueError) -> Topograph
             if channels:
                 return _read_map(_choose(channels, channel, path), path, reader.format() in _ARRAYS)
             why = "it finds no channel"
-    raise ValueError(f"{refused}; SurfaceTopography does not read it either: {why}")
+    raise ValueError(f"{told}; SurfaceTopography does not read it either: {why}")
 
 
 def _is_binary(path: str) -> bool:
