@@ -53,7 +53,7 @@ const EXAMPLES: &str = "\
     asperity interface --heights heights.npy --lengths 20um --modulus 115GPa \\
       --mean-pressures 1MPa:1GPa:12:log --conductivities 15W/mK 15W/mK \\
       --for abaqus,moose --out joint.csv
-  A seal, whose transmissivity falls with the pressure, for COMSOL:
+  A seal with a transmissivity that falls with the pressure, for COMSOL:
     asperity interface --heights heights.npy --lengths 20um --modulus 10MPa \\
       --mean-pressures 10kPa:1MPa:12:log --leakage --for comsol --out seal.csv";
 

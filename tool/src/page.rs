@@ -76,7 +76,7 @@ pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColou
     let folder = results.is_dir();
     colours.check()?;
     if !folder && (colours.limits().is_some() || colours.colour_clusters) {
-        let text = "has no maps, of which --colour-limits and --colour-clusters are: name the folder of a solve";
+        let text = "has no maps for --colour-limits and --colour-clusters: name the folder of a solve";
         return Err(Error::file(results, text).into());
     }
     let beside = || if folder { results.join(PAGE) } else { with_suffix(results, ".html") };

@@ -72,7 +72,7 @@ const EXAMPLES: &str = "\
     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --out tip.npz
     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --rms-height 0.2nm \\
       --k-s 32 --out rough-tip.npz
-  The surface of the contact-mechanics challenge (Mueser et al. 2017), of which low values touch first:
+  The surface of the contact-mechanics challenge (Mueser et al. 2017), where low values touch first:
     asperity surface --fourier surface.Fourier.ASCII.dat --fourier-unit 0.1mm --size 2048 \\
       --lengths 0.1mm --out low.npz
     asperity prepare low.npz --flip --out challenge.npz";

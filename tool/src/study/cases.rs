@@ -207,7 +207,7 @@ impl Commands {
             key.is_some_and(|key| OWN.contains(&key.as_str())) || section(arg) == "output" && !is_key
         };
         if let Some((_, arg)) = self.option(name) {
-            let own = || format!("{name} is not for a study, which sees to it by itself: remove it");
+            let own = || format!("{name} is no option of a study: remove it");
             return if is_own(arg) { Err(own()) } else { Ok(()) };
         }
         let options = self.0.iter().flat_map(Command::get_arguments).filter(|arg| !is_own(arg));

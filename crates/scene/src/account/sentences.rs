@@ -51,9 +51,9 @@ fn unconverged(account: &Account) -> String {
             format!("the load is not carried: try another {{initial_gap}}, or hold {held}")
         }
         _ if inputs.precision == Precision::F32 => {
-            "this is what f32 can do: use {precision=f64}, or a larger {tolerance}".to_owned()
+            "f32 reaches no smaller error: use {precision=f64}, or raise {tolerance}".to_owned()
         }
-        _ => "this is the best to be had: use a larger {tolerance}, or another {initial_gap}".to_owned(),
+        _ => "no further progress is possible: raise {tolerance}, or give another {initial_gap}".to_owned(),
     };
     let errors = [("error", relative_error), ("load error", load_error)];
     let missed = errors.iter().filter(|(_, error)| *error > tolerance || error.is_nan());

@@ -1,4 +1,4 @@
-//! The accuracy that is asked for, and its plan.
+//! The accuracy to reach, and its plan.
 
 use asperity::PullOff;
 use asperity::accuracy::{Accuracy, Quantity};
@@ -11,7 +11,7 @@ use crate::key::{Given, Kind, PRESSURE, Range, Word, keys};
 pub const GIB: f64 = 1_073_741_824.0;
 
 keys! {
-    /// The accuracy that is asked for, from which tolerance and grid follow.
+    /// The accuracy to reach, from which tolerance and grid follow.
     AccuracyKeys {
         "Solver" {
             /// Relative error to reach, such as 0.01: chooses the tolerance, solves on coarser grids too, and
@@ -28,7 +28,7 @@ keys! {
 }
 
 keys! {
-    /// The pull-off that is asked for.
+    /// The search for a pull-off.
     PullOffKeys {
         "Load" {
             /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed
@@ -59,7 +59,7 @@ fn quantities() -> Vec<Word> {
     Quantity::ALL.iter().map(|quantity| Word { name: quantity.name(), help: help(*quantity) }).collect()
 }
 
-/// The accuracy that is asked for, from which tolerance and grid follow.
+/// The accuracy to reach, from which tolerance and grid follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
     /// The relative error that is wanted, between 0 and 1.
@@ -89,7 +89,7 @@ impl Given {
         }
     }
 
-    /// The pull-off that is asked for.
+    /// The search for a pull-off.
     pub fn pull_off(&self) -> PullOff {
         let usual = PullOff::default();
         usual.tolerance(self.number("rtol").unwrap_or(usual.tolerance)).preload(self.number("preload"))

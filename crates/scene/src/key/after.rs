@@ -169,11 +169,11 @@ impl After {
         conductors.check()?;
         let (key, _) = conductors.given();
         if !self.stiffness {
-            return Err(format!("{{{key}}} needs {{stiffness=}}, of which the conductance is found: give both"));
+            return Err(format!("{{{key}}} needs {{stiffness=}}, which gives the conductance: give both"));
         }
         if let Some(other) = elastic.no_half_space() {
             return Err(format!(
-                "{{{key}}}: a contact conducts as it resists between half-spaces alone: leave it out, or {{{other}}}"
+                "{{{key}}}: conductance is known between two half-spaces alone: leave it out, or {{{other}}}"
             ));
         }
         if adhesion.wall != Wall::Hard {

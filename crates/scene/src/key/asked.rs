@@ -133,14 +133,14 @@ impl Asked {
 
     /// Refuses what is known of elastic contact alone where the surface yields.
     fn check_hardness(&self, adhesion: &Adhesion, method: Method) -> Result<(), String> {
-        let elastic = "a surface that yields does not come back, which its test and its tangent assume";
+        let elastic = "its test and its tangent assume a surface that does not yield";
         let (key, reason) = match self {
             _ if !adhesion.yields() => return Ok(()),
             _ if method == Method::Rey2017 => ("{method=rey2017}", "it has no form for a surface that yields"),
             Self { leave: true, .. } => ("{leave}", elastic),
             Self { stability: true, .. } => ("{stability}", elastic),
             Self { after: After { stiffness: true, .. }, .. } => ("{stiffness}", elastic),
-            Self { goal: Some(_), .. } => ("{accuracy}", "the error of the grid is known of elastic contact alone"),
+            Self { goal: Some(_), .. } => ("{accuracy}", "the error of the grid is known for elastic contact alone"),
             _ => return Ok(()),
         };
         Err(format!("{key} and {{hardness}}: {reason}: leave one of them out"))
@@ -153,7 +153,7 @@ impl Asked {
             _ if !adhesive => "without adhesion there is but one equilibrium",
             Self { fraction: Some(_), .. } => "each branch has a load of its own for a contact fraction: give a load",
             Self { goal: Some(_), .. } => "each branch has an accuracy of its own: give one branch",
-            Self { leave: true, .. } => "an equilibrium that is left leads off its branch: give one branch",
+            Self { leave: true, .. } => "leaving an equilibrium changes the branch: give one branch",
             _ if method == Method::Rey2017 => "rey2017 has one start: take the default method",
             _ => return Ok(()),
         };

@@ -245,7 +245,7 @@ impl Elastic {
             return self.own().next().map_or(Ok(()), |(key, value)| {
                 let bodies = BODIES.iter().filter(|kind| kind.has(key)).map(|kind| format!("{{{}}}", kind.key));
                 Err(format!(
-                    "{{{key}}} is {value}, but the body is a half-space, whose {{modulus}} is E/(1 - nu^2): leave it out, \
+                    "{{{key}}} is {value}, but the body is a half-space with {{modulus}} E/(1 - nu^2): leave it out, \
                      or give {}, a thickness",
                     bodies.collect::<Vec<_>>().join(" or ")
                 ))

@@ -104,7 +104,7 @@ pub static LAWS: [Law; 9] = [
         name: "power",
         formula: "traction W/RHO (1 + g/(N RHO))^-(N + 1)",
         needs: &[WORK, "range", "exponent"],
-        source: "as of forces between bodies that fall with a power of their distance",
+        source: "as for forces between bodies that fall with a power of their distance",
         never_ends: true,
         make: |of, _| Ok(PowerLaw::new(known(of.work_of_adhesion), known(of.range), known(of.exponent))?.into()),
         ..NONE

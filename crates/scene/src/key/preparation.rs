@@ -251,11 +251,11 @@ impl Preparation {
             let limit = quantity(spikes.limit, &map);
             let what = match spikes.worst {
                 Some(((i, j), distance)) => format!(
-                    "{} of {nodes} points beyond {limit} from the median around them have it now, the worst by {} at index [{i}, {j}]",
+                    "{} of {nodes} points deviated by more than {limit} and were set to the median around them; the largest deviation was {} at index [{i}, {j}]",
                     spikes.nodes.len(),
                     quantity(distance, &map)
                 ),
-                None => format!("none of {nodes} points is beyond {limit} from the median around it"),
+                None => format!("none of {nodes} points deviates by more than {limit} from the median around it"),
             };
             log.tell_change("despike", what, &map, &before);
             log.warn(Warning::of_despiked(spikes.nodes.len(), nodes), &map);

@@ -83,7 +83,7 @@ impl<T: Scalar> Session<T> {
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
         let mut found = self.found(solution, clock)?;
-        // the error of the grid is known of elastic contact alone
+        // the error of the grid is known for elastic contact alone
         found.sight.open = found.solution.report.plastic.is_none().then(|| (waves, levels.clone()));
         Ok(Some(found.by(levels, applications)))
     }
