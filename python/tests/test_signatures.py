@@ -49,6 +49,15 @@ METHODS = {
     ),
     "stability": (("Load", "spring"), ()),
 }
+#: The groups of keywords, what matters most first: loads, adhesion, surfaces, bodies, accuracy; all others come behind.
+GROUPS = (
+    "modulus mean_pressure mean_pressures mean_gap mean_gaps normal_force normal_forces approach approaches spring springs "
+    "spring_stiffness spring_position spring_positions reduced_pressure reduced_pressures contact_fraction contact_fractions "
+    "preload prony times law work_of_adhesion range exponent hamaker cut_off branch "
+    "boundary absent_missing against against_modulus shift whole "
+    "body layer base coating coating_modulus coating_poisson plate poisson hardness wall wall_stiffness "
+    "accuracy accuracy_of memory nested tolerance"
+).split()
 #: The keywords of a contact that a function does not have.
 WITHOUT = {"interface": ("boundary", "hardness"), "viscoelastic": ELASTIC}
 
@@ -67,7 +76,13 @@ def keys_of(lists, without=()):
     known = {}
     for name in lists:
         known.update(KEYS[name] if name in KEYS else {name: OTHERS[name]})
-    return {name: typed(text) for name, text in known.items() if name not in without}
+    return grouped({name: typed(text) for name, text in known.items() if name not in without})
+
+
+def grouped(known):
+    """Keywords by their groups."""
+    place = lambda one: GROUPS.index(one[0]) if one[0] in GROUPS else len(GROUPS)
+    return dict(sorted(known.items(), key=place))
 
 
 def signatures():
@@ -76,7 +91,7 @@ def signatures():
     for name, (lists, without) in METHODS.items():
         found[f"Contact.{name}"] = keys_of(lists, without)
         of_contact = {} if name == "stability" else keys_of(CONTACT, WITHOUT.get(name, ()))
-        found[name] = {**of_contact, **found[f"Contact.{name}"]}
+        found[name] = grouped({**of_contact, **found[f"Contact.{name}"]})
     return found
 
 
