@@ -1,7 +1,7 @@
 //! The columns of a table as people read them.
 
 use asperity_scene::legs::value;
-use asperity_scene::{Account, Measure};
+use asperity_scene::{Account, Measure, key};
 use serde_json::Value;
 
 use crate::quantity::{ENERGY, ENERGY_PER_AREA};
@@ -18,8 +18,8 @@ pub struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     pub fn new(rows: &'a [Value], units: &'a Units) -> Self {
-        let control = rows.first().and_then(|row| row[Account::NAMES.control].as_str()).unwrap_or_default();
-        let free = rows.iter().any(|row| !row[Account::NAMES.approach].is_null());
+        let control = rows.first().and_then(|row| row[key!(Account, control)].as_str()).unwrap_or_default();
+        let free = rows.iter().any(|row| !row[key!(Account, approach)].is_null());
         // rows have no side lengths, but the force over the area and the force
         let area = rows.iter().filter_map(area).max_by(f64::total_cmp);
         Self { units, control, area: area.filter(|_| free) }

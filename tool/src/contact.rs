@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use asperity::{Error, Grid};
 use asperity_plot::{Chart, Paper, Picture};
-use asperity_scene::Inputs;
 use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
+use asperity_scene::{Inputs, key};
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -126,7 +126,7 @@ fn rows<const N: usize>(folder: &Path, name: &str) -> Outcome<Vec<[f64; N]>> {
 /// The contents of a folder of this command, with its report.
 pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents> {
     let (figures, units): (ContactFigures, _) = (serde_json::from_value(report.clone())?, units_of(report));
-    let (shape, lengths) = serde_json::from_value(json!([report[Inputs::NAMES.shape], report[Inputs::NAMES.lengths]]))?;
+    let (shape, lengths) = serde_json::from_value(json!([report[key!(Inputs, shape)], report[key!(Inputs, lengths)]]))?;
     let density = |name: &str, exponent| {
         let rows = rows::<3>(folder, name)?;
         let edges = rows.iter().map(|row| row[0]).chain(rows.last().map(|row| row[1])).collect();

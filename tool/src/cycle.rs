@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use asperity_scene::legs::value;
 use asperity_scene::{
-    Account, AccountNames, AdhesionKeys, Chosen, CycleLimit, Load, LoadsKeys, PathKeys, Skin, SolverKeys, Step,
-    StepNames, SurfaceKeys, UnitKeys, Way, unbalanced,
+    Account, AdhesionKeys, Chosen, CycleLimit, Load, LoadsKeys, PathKeys, Skin, SolverKeys, Step, SurfaceKeys,
+    UnitKeys, Way, key, unbalanced,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
@@ -112,7 +112,7 @@ impl Options {
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limit: Option<CycleLimit>) -> Outcome<()> {
         let (rows, units, free) = (&table.session.read()?, table.session.units(), table.is_free());
-        let (x, y) = if free { (AT.approach, AT.normal_force) } else { (AT.mean_gap, AT.mean_pressure) };
+        let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         let followed = Followed { rows, units, free, axes: [x, y], limit };
         self.manner.printing.report(|| table.report(followed.report()));
         if self.manner.printing.for_people() {
@@ -126,10 +126,6 @@ impl Options {
         table.first(|| write_picture(plot, &chart_of_columns(rows, x, y, units, self.size.paper())?))
     }
 }
-
-/// The names of the numbers of a state, and of its place on the cycle.
-const AT: AccountNames = Account::NAMES;
-const STEP: StepNames = Step::NAMES;
 
 /// A cycle with all of its rows.
 struct Followed<'a> {
@@ -148,20 +144,20 @@ impl Followed<'_> {
     }
 
     fn imbalance(&self) -> f64 {
-        self.rows.last().map_or(0.0, |last| value(last, STEP.imbalance))
+        self.rows.last().map_or(0.0, |last| value(last, "imbalance"))
     }
 
     /// The greatest work on the way, as at the end the work is that of the jumps alone, and the row that has it.
     fn greatest_work(&self) -> (f64, Option<&Value>) {
-        let work = |row: &Value| value(row, STEP.work).abs();
+        let work = |row: &Value| value(row, "work").abs();
         let most = self.rows.iter().map(work).fold(f64::MIN_POSITIVE, f64::max);
         (most, self.rows.iter().find(|row| work(row) == most).or(self.rows.last()))
     }
 
     /// The rows with an event: the largest jump first, and at the end limit points, which dissipate nothing.
     fn events(&self) -> Vec<usize> {
-        let mut events: Vec<_> = (0..self.rows.len()).filter(|&k| !self.rows[k][STEP.event].is_null()).collect();
-        let drop = |k: usize| self.rows[k][STEP.energy_drop].as_f64().unwrap_or(f64::NEG_INFINITY);
+        let mut events: Vec<_> = (0..self.rows.len()).filter(|&k| !self.rows[k][key!(Step, event)].is_null()).collect();
+        let drop = |k: usize| self.rows[k][key!(Step, energy_drop)].as_f64().unwrap_or(f64::NEG_INFINITY);
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
         events
     }
@@ -169,17 +165,17 @@ impl Followed<'_> {
     /// The keys of the report.
     fn report(&self) -> Value {
         let last = self.rows.last().cloned().unwrap_or_default();
-        let kept = [AT.mean_gap, AT.mean_pressure, AT.normal_force, AT.approach];
+        let kept = ["mean_gap", "mean_pressure", "normal_force", "approach"];
         let event = |&k: &usize| {
-            let of_step = [STEP.leg, STEP.direction, AT.control_value, STEP.event, STEP.energy_drop];
+            let of_step = ["leg", "direction", "control_value", "event", "energy_drop"];
             let mut found = cells(&self.rows[k], of_step.iter().chain(&kept));
             if let Some(before) = k.checked_sub(1) {
                 found.insert("from".to_owned(), cells(&self.rows[before], &kept).into());
             }
             Value::Object(found)
         };
-        let [tension, force] = [AT.mean_pressure, AT.normal_force].map(|name| -self.least(name));
-        let of_cycle = [STEP.work, STEP.dissipated, AT.plastic_energy, STEP.imbalance, STEP.work_error];
+        let [tension, force] = ["mean_pressure", "normal_force"].map(|name| -self.least(name));
+        let of_cycle = ["work", "dissipated", "plastic_energy", "imbalance", "work_error"];
         let mut found = Map::from_iter([
             ("greatest_tension".to_owned(), json!((tension > 0.0).then_some(tension))),
             ("greatest_tensile_force".to_owned(), json!((tension > 0.0).then_some(force))),
@@ -199,9 +195,10 @@ impl Followed<'_> {
         let events = self.events();
         for &k in events.iter().take(MOST_EVENTS) {
             let (row, before) = (&self.rows[k], &self.rows[k.saturating_sub(1)]);
-            let event = row[STEP.event].as_str().unwrap_or_default();
+            let event = row[key!(Step, event)].as_str().unwrap_or_default();
             let way = |name: &str| format!("{} {} to {}", name.replace('_', " "), told(before, name), told(row, name));
-            let drop = row[STEP.energy_drop].as_f64().map(|_| format!(", energy drop {}", told(row, STEP.energy_drop)));
+            let drop =
+                row[key!(Step, energy_drop)].as_f64().map(|_| format!(", energy drop {}", told(row, "energy_drop")));
             lines.push(format!("{event:<23} {}{}", self.axes.map(way).join(", "), drop.unwrap_or_default()));
         }
         if events.len() > MOST_EVENTS {
@@ -210,25 +207,25 @@ impl Followed<'_> {
         }
         let (most, greatest) = self.greatest_work();
         let Some((last, greatest)) = self.rows.last().zip(greatest) else { return lines };
-        lines.push(format!("dissipated in jumps     {}", told(last, STEP.dissipated)));
-        if last[AT.plastic_energy].is_number() {
-            lines.push(format!("dissipated by yielding  {}", told(last, AT.plastic_energy)));
+        lines.push(format!("dissipated in jumps     {}", told(last, "dissipated")));
+        if last[key!(Account, plastic_energy)].is_number() {
+            lines.push(format!("dissipated by yielding  {}", told(last, "plastic_energy")));
         }
-        lines.push(format!("work done by the load   {} ± {}", told(last, STEP.work), told(last, STEP.work_error)));
+        lines.push(format!("work done by the load   {} ± {}", told(last, "work"), told(last, "work_error")));
         if let Some(CycleLimit { work_limit, work_limit_error, .. }) = self.limit {
             let limit = json!({ "work": work_limit, "work_error": work_limit_error });
-            lines.push(in_limit([STEP.work, STEP.work_error].map(|name| told(&limit, name))));
+            lines.push(in_limit(["work", "work_error"].map(|name| told(&limit, name))));
         }
         let share = 100.0 * (self.imbalance() / most).abs();
-        let of = columns.number(STEP.work, columns.value(greatest, STEP.work).abs());
-        let imbalance = told(last, STEP.imbalance);
+        let of = columns.number("work", columns.value(greatest, "work").abs());
+        let imbalance = told(last, "imbalance");
         lines.push(format!("imbalance of energy     {imbalance}, {share:.1} % of the greatest work on the way, {of}"));
         lines
     }
 
     /// The greatest tension, as a pressure where there is an area, and as a force.
     fn tension(&self) -> Vec<String> {
-        let [tension, force] = [AT.mean_pressure, AT.normal_force].map(|name| -self.least(name));
+        let [tension, force] = ["mean_pressure", "normal_force"].map(|name| -self.least(name));
         if tension <= 0.0 {
             return Vec::new();
         }

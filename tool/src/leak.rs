@@ -8,7 +8,7 @@ use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, write_npy};
 use asperity_plot::{Colouring, Map, Paper, Picture};
-use asperity_scene::{Boundary, Chosen, Inputs, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin};
+use asperity_scene::{Boundary, Chosen, Inputs, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin, key};
 use clap::Args;
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -182,7 +182,7 @@ fn speed(flow: &Flow) -> Array2<f64> {
 /// The contents of a folder of this command, with its report.
 pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents> {
     let (leaked, units): (Leaked, _) = (serde_json::from_value(report.clone())?, units_of(report));
-    let (shape, lengths) = serde_json::from_value(json!([report[Inputs::NAMES.shape], report[Inputs::NAMES.lengths]]))?;
+    let (shape, lengths) = serde_json::from_value(json!([report[key!(Inputs, shape)], report[key!(Inputs, lengths)]]))?;
     let grid = Grid::new(shape, lengths)?;
     let mut pictures = Vec::new();
     for axis in Axis::BOTH.into_iter().filter(|axis| *leaked.percolates.along(*axis)) {

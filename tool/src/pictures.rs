@@ -6,9 +6,9 @@ use std::path::Path;
 use asperity::contact::Clusters;
 use asperity::{Grid, Real, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Paper, Picture, Style};
-use asperity_scene::Account;
 use asperity_scene::legs::{abscissa, legs, logarithmic, value};
 use asperity_scene::theories::{Curve, Theories};
+use asperity_scene::{Account, key};
 use clap::{Args, ValueEnum};
 use ndarray::{Array2, ArrayView2};
 use serde_json::Value;
@@ -169,7 +169,7 @@ pub fn chart_of_loads(
 ) -> asperity::Result<Picture> {
     let has = |column: &str| rows.iter().any(|row| !row[column].is_null());
     let area = "contact_fraction";
-    let (x, y) = match rows.first().and_then(|row| row[Account::NAMES.control].as_str()) {
+    let (x, y) = match rows.first().and_then(|row| row[key!(Account, control)].as_str()) {
         _ if has("wanted_contact_fraction") => ("mean_pressure", area),
         Some("approach" | "spring") if has("approach") => ("approach", "normal_force"),
         Some("mean-gap" | "spring") => ("mean_gap", "mean_pressure"),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity_maps::io::OutputFolder;
 use asperity_plot::Picture;
-use asperity_scene::Account;
+use asperity_scene::{Account, key};
 use clap::Arg;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -74,7 +74,7 @@ impl Results<'_> {
     fn has_failed(&self) -> bool {
         let report = fs::read_to_string(self.out.join(REPORT)).ok();
         let report: Option<Value> = report.and_then(|text| serde_json::from_str(&text).ok());
-        report.is_some_and(|report| report[Account::NAMES.status].as_str().is_some_and(|status| status != "converged"))
+        report.is_some_and(|report| report[key!(Account, status)].as_str().is_some_and(|status| status != "converged"))
     }
 
     /// Puts the scene, and the files that `write` leaves in the folder, in their places.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Result};
 use asperity_maps::Topography;
 use asperity_maps::io::read_field;
-use asperity_scene::{Account, Boundary, Elastic, Inputs};
+use asperity_scene::{Account, Boundary, Elastic, Inputs, key};
 use serde_json::Value;
 
 use crate::units::Units;
@@ -38,7 +38,7 @@ impl<'a> Solved<'a> {
             .map_err(|_| refuse("has no report.json: name the folder of a solve"))?;
         let report: Value =
             serde_json::from_str(&text).map_err(|_| refuse("has a report.json that is no report of a solve"))?;
-        if report[Account::NAMES.command] != "solve" && report[Account::NAMES.command] != "demo" {
+        if report[key!(Account, command)] != "solve" && report[key!(Account, command)] != "demo" {
             return Err(refuse("has the results of another command: name the folder of a solve"));
         }
         Ok(Self { folder, report })
@@ -54,22 +54,22 @@ impl<'a> Solved<'a> {
             return Err(Error::file(self.folder, format!("has no {name}: solve with --format npy")));
         }
         let mut map = Topography::new(read_field(&path)?);
-        let side = |k: usize| self.report[Inputs::NAMES.lengths][k].as_f64();
+        let side = |k: usize| self.report[key!(Inputs, lengths)][k].as_f64();
         map.lengths = side(0).zip(side(1));
-        map.unit = self.report[Inputs::NAMES.length_unit].as_str().map(str::to_owned);
+        map.unit = self.report[key!(Inputs, length_unit)].as_str().map(str::to_owned);
         Ok(map)
     }
 
     /// What is beyond the map: around the original of a mirrored map sides through which nothing flows, or which have
     /// one pressure, as around a free map.
     pub fn boundary(&self) -> Boundary {
-        let free = self.report[Elastic::NAMES.boundary] == "free" || self.is_original();
+        let free = self.report[key!(Elastic, boundary)] == "free" || self.is_original();
         if free { Boundary::Free } else { Boundary::Periodic }
     }
 
     /// Whether the map is the original of a mirrored one.
     pub fn is_original(&self) -> bool {
-        self.report[Inputs::NAMES.solved_shape].is_array()
+        self.report[key!(Inputs, solved_shape)].is_array()
     }
 
     /// The units of its numbers, as far as they are known.

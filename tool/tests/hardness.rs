@@ -170,7 +170,7 @@ fn a_sweep_that_goes_on_keeps_the_depth() {
     }
     // a table of another hardness is another one
     let other = "sweep --heights heights.npy --mean-pressures 0.005 --fields parts --quiet --out parts.csv";
-    bench.refused_with(other, &["whose hardness is"]);
+    bench.refused_with(other, &["hardness is"]);
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn a_cycle_tells_what_yielding_has_dissipated() {
     let run = format!("cycle --heights heights.npy --mean-pressures 1e-4,0.03,1e-4 --steps 6 --hardness {hardness}");
     let report = bench.reported(&format!("{run} --out cycle.csv"));
     let plastic = column(&bench, "cycle.csv", "plastic_energy");
-    assert!(plastic[0] == 0.0 && Some(&number(&report["plastic_energy"])) == plastic.last());
+    assert_eq!(Some(&number(&report["plastic_energy"])), plastic.last());
     let said = bench.said(&format!("{run} --out again.csv"));
     assert!(said.contains("dissipated by yielding"), "{said}");
     bench.said("report cycle.csv");

@@ -30,15 +30,15 @@ use asperity::{Branch, Control, Real, Report, Status};
 use asperity_flow::Axis;
 use serde::Serialize;
 
-pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step, StepNames};
+pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step};
 pub use self::findings::{Conducted, Findings};
 pub use self::found::{Found, Sight, check_finite};
 pub(crate) use self::found::{Waves, warnings_of};
-pub use self::inputs::{InputNames, Inputs};
+pub use self::inputs::Inputs;
 pub use self::leaked::{Along, Enclosed, Leaked, Narrowest, Transmissivity};
 pub(crate) use self::numbers::is_told;
 pub use self::numbers::{Measure, Number, dimension_of_key};
-pub use self::pulled_off::{PulledOff, PulledOffNames};
+pub use self::pulled_off::PulledOff;
 pub(crate) use self::row::INPUTS;
 pub use self::row::Row;
 use self::rows::Line::{self, Alone, Of, OfAdhesion, Words};
@@ -57,7 +57,7 @@ record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
     /// reports in Python, in their order; numbers are in the units of the input, energies per area.
     #[derive(Clone, Debug, Serialize)]
-    Account named AccountNames of <T: Real> (
+    Account of <T: Real> (
         command: &'static str,
         found: &Found<T>,
         report: &Report,

@@ -37,12 +37,12 @@ mod words;
 use std::ops::RangeInclusive;
 
 pub use self::accuracy::{AccuracyKeys, GIB, Goal, PullOffKeys};
-pub use self::adhesion::{Adhesion, AdhesionKeys, AdhesionNames};
+pub use self::adhesion::{Adhesion, AdhesionKeys};
 pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKeys, PercolationKeys, StiffnessKeys};
 pub use self::asked::{Asked, NestedKeys, PathKeys};
 pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
 pub use self::boundary::Boundary;
-pub use self::elastic::{Elastic, ElasticNames, LengthsKeys, SurfaceKeys};
+pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use self::given::{Given, Measured, Quantities, Typed};
 pub use self::keywords::KEYWORDS;
 pub use self::kind::{Kind, Values, Word};

@@ -26,6 +26,16 @@ pub use table::fields::{gap_to_write, write_fields};
 pub use table::identity::Identity;
 pub use table::{csv, journal, legs, output, warnings};
 
+/// The key of a field of an answer, as reports and tables have it; another name does not compile:
+/// `row[key!(Account, mean_gap)]`.
+#[macro_export]
+macro_rules! key {
+    ($answer:ty, $field:ident) => {{
+        const _: usize = ::std::mem::offset_of!($answer, $field);
+        stringify!($field)
+    }};
+}
+
 /// Something in either precision.
 pub enum Either<S, D> {
     /// In `f32`.

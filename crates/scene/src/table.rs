@@ -133,11 +133,11 @@ impl Table {
         }
         let mut rows = text.lines().rev().map(|line| table.opening.format.parsed(&table.opening.names, line));
         let [last, before] = [rows.next(), rows.next()].map(Option::unwrap_or_default);
-        table.had_event = !last[Step::NAMES.event].is_null();
+        table.had_event = !last[crate::key!(Step, event)].is_null();
         // a run that was killed may have left them
         if table.opening.loads.is_none()
             && !table.had_event
-            && before[Step::NAMES.event].is_null()
+            && before[crate::key!(Step, event)].is_null()
             && table.journal.is_some()
         {
             table.kept().forget(table.rows - 1);

@@ -38,9 +38,20 @@ fn told<'a>(lists: &[&'a [Number]]) -> Vec<&'a Number> {
     lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_told).collect()
 }
 
-/// The numbers of the report of a solve.
+/// The numbers of the report of a solve, in their order: the numbers of some fields are among the others.
 fn of_report() -> Vec<&'static Number> {
-    told(&[Account::NUMBERS, Inputs::NUMBERS, Slopes::NUMBERS, Elastic::NUMBERS, Adhesion::NUMBERS])
+    fn in_place(number: &'static Number) -> Vec<&'static Number> {
+        let within = match (number.is_told, number.kind) {
+            (true, _) => return vec![number],
+            (_, "Inputs") => Inputs::NUMBERS,
+            (_, "Slopes") => Slopes::NUMBERS,
+            (_, "Elastic") => Elastic::NUMBERS,
+            (_, "Adhesion") => Adhesion::NUMBERS,
+            _ => &[],
+        };
+        within.iter().flat_map(in_place).collect()
+    }
+    Account::NUMBERS.iter().flat_map(in_place).collect()
 }
 
 /// The type in Python of a type in Rust.

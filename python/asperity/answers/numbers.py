@@ -194,17 +194,11 @@ class Report(TypedDict):
     solved_shape: list[int] | None
     shape: list[int]
     lengths: list[float]
+    rms_slope: float | None
+    rms_slope_differences: float | None
     length_unit: str | None
     pressure_unit: str | None
     given: dict[str, str | list[str]] | None
-    method: Method
-    precision: Precision
-    tolerance: float
-    max_iterations: int
-    threads: int
-    version: str
-    rms_slope: float | None
-    rms_slope_differences: float | None
     boundary: Boundary
     modulus: float
     poisson: float | None
@@ -228,6 +222,12 @@ class Report(TypedDict):
     wall_stiffness: float | None
     hardness: float | None
     hardness_map: str | None
+    method: Method
+    precision: Precision
+    tolerance: float
+    max_iterations: int
+    threads: int
+    version: str
 
 
 class Numbers:

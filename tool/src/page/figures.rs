@@ -1,6 +1,6 @@
 //! Figures and their names as a page has them.
 
-use asperity_scene::{Adhesion, GROUPS};
+use asperity_scene::{Adhesion, GROUPS, key};
 use serde_json::Value;
 
 use crate::columns::spaced;
@@ -8,7 +8,7 @@ use crate::columns::spaced;
 /// Whether a key of a report is a constant, and no result: the law jkr has one resolution measure on every grid.
 pub fn is_constant(key: &str, report: &Value) -> bool {
     key == "criterion"
-        || report[Adhesion::NAMES.law] == "jkr" && matches!(key, "mu_rho" | "mu_rho_node" | "under_resolved")
+        || report[key!(Adhesion, law)] == "jkr" && matches!(key, "mu_rho" | "mu_rho_node" | "under_resolved")
 }
 
 /// The place of a key or column in the order in which one asks.

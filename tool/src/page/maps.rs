@@ -3,7 +3,7 @@
 use asperity::Grid;
 use asperity_maps::io::read_field;
 use asperity_plot::{Chart, Colouring, Distribution, Map, Paper};
-use asperity_scene::{Account, Adhesion, Boundary, Inputs};
+use asperity_scene::{Account, Adhesion, Boundary, Inputs, key};
 use ndarray::Zip;
 
 use super::{FINE, Page};
@@ -30,18 +30,18 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
     let [gap, pressure, contact_pressure] =
         ["gap", "pressure", "contact_pressure"].map(|name| read_field(folder.join(format!("{name}.npy"))));
     let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
-    let side = |k: usize| report[Inputs::NAMES.lengths][k].as_f64().unwrap_or(1.0);
+    let side = |k: usize| report[key!(Inputs, lengths)][k].as_f64().unwrap_or(1.0);
     let grid = Grid::new(gap.dim(), (side(0), side(1)))?;
     if [pressure.dim(), contact_pressure.dim()] != [gap.dim(); 2] {
         return Err("gap, pressure and contact pressure have not one shape: they are of different runs".into());
     }
     let (length, pressure_unit) = (units.length.as_deref(), units.pressure.as_deref());
 
-    let adhesive = report[Adhesion::NAMES.law].as_str() != Some("none");
+    let adhesive = report[key!(Adhesion, law)].as_str() != Some("none");
     // the traction of the law is what the contact pressure has more than the elastic one
-    let least = report[Adhesion::NAMES.work_of_adhesion]
+    let least = report[key!(Adhesion, work_of_adhesion)]
         .as_f64()
-        .zip(report[Adhesion::NAMES.range].as_f64())
+        .zip(report[key!(Adhesion, range)].as_f64())
         .map(|(w, range)| NOTICEABLE * w / range);
     let least = least.filter(|_| adhesive).unwrap_or(f64::INFINITY);
     let mut regions = Zip::from(&gap).and(&pressure).and(&contact_pressure).map_collect(|&gap, &pressure, &contact| {
@@ -52,7 +52,7 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
             _ => 0.0,
         }
     });
-    if report[Account::NAMES.plastic_fraction].is_number() {
+    if report[key!(Account, plastic_fraction)].is_number() {
         let depth = read_field(folder.join("plastic_depth.npy"))?;
         if depth.dim() == gap.dim() {
             mark_yielded(&mut regions, depth.view());

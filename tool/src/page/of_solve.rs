@@ -7,7 +7,7 @@ use std::path::Path;
 use asperity::Error;
 use asperity::accuracy::Quantity;
 use asperity_scene::{
-    Account, Adhesion, Elastic, GROUPS, GridErrors, Inputs, Measure, OF_ADHESION, PulledOff, Told, corrected,
+    Account, Adhesion, Elastic, GROUPS, GridErrors, Inputs, Measure, OF_ADHESION, PulledOff, Told, corrected, key,
 };
 use serde::Deserialize;
 use serde_json::Value;
@@ -35,8 +35,8 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     })?;
     let mut report: Value =
         serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of asperity: {e}")))?;
-    let command = report[Account::NAMES.command].as_str().unwrap_or_default().to_owned();
-    let longest = report[Inputs::NAMES.shape].as_array().into_iter().flatten().filter_map(Value::as_u64).max();
+    let command = report[key!(Account, command)].as_str().unwrap_or_default().to_owned();
+    let longest = report[key!(Inputs, shape)].as_array().into_iter().flatten().filter_map(Value::as_u64).max();
     let paper = resolution(longest.unwrap_or_default());
     match &*command {
         "solve" | "demo" => {}
@@ -53,19 +53,19 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     let solved = Solved { folder, report };
     let (report, units) = (&solved.report, solved.units());
     let scene = fs::read_to_string(folder.join(scene::NAME)).ok();
-    let status = report[Account::NAMES.status].as_str().unwrap_or_default();
+    let status = report[key!(Account, status)].as_str().unwrap_or_default();
     let mut page = Page::of_folder(folder, report, status);
 
     let mut warnings: Vec<String> = Vec::new();
     if status != "converged" {
         warnings.push(format!("The solve has not converged, it is {status}: the answer may be wrong."));
     }
-    if report[PulledOff::NAMES.reached] == false {
+    if report[key!(PulledOff, reached)] == false {
         warnings.push(
             "The pull-off is not found to its tolerance: the surfaces may bear more than is found here.".to_owned(),
         );
     }
-    let said: Vec<Told> = serde_json::from_value(report[Account::NAMES.warnings].clone()).unwrap_or_default();
+    let said: Vec<Told> = serde_json::from_value(report[key!(Account, warnings)].clone()).unwrap_or_default();
     warnings.extend(said.iter().map(Told::to_string));
     if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
@@ -99,7 +99,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     page.figures(Some("All inputs"), &others.collect::<Vec<_>>());
     for (_, levels) in levels {
         let level = |level: &Value| {
-            let shape = shown("shape", &level[Inputs::NAMES.shape], &number)?;
+            let shape = shown("shape", &level[key!(Inputs, shape)], &number)?;
             let rest = level.as_object()?.iter().filter(|(key, _)| *key != "shape");
             let rest = rest.filter_map(|(key, value)| Some(format!("{} {}", spaced(key), shown(key, value, &number)?)));
             Some((shape, rest.collect::<Vec<_>>().join(", ")))
@@ -121,7 +121,7 @@ fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String>
     for picture in pictures {
         match picture.key() {
             [] => drawn.figure(&picture.svg()?),
-            _ => drawn.map(&picture, &report[Inputs::NAMES.lengths], units.length.as_deref())?,
+            _ => drawn.map(&picture, &report[key!(Inputs, lengths)], units.length.as_deref())?,
         }
     }
     page.pictures("Maps and curves", &drawn);
@@ -137,14 +137,14 @@ fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String>
 
 /// What writes the numbers of a report, by their keys.
 fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> String + use<'a> {
-    let control = report[Account::NAMES.control].as_str().unwrap_or_default();
-    let on_line = report[Inputs::NAMES.shape][1] == 1;
-    let counted = report[Account::NAMES.contact_fraction].as_f64().unwrap_or_default();
+    let control = report[key!(Account, control)].as_str().unwrap_or_default();
+    let on_line = report[key!(Inputs, shape)][1] == 1;
+    let counted = report[key!(Account, contact_fraction)].as_f64().unwrap_or_default();
     move |key, value| match Measure::of(key, control, on_line) {
         // a window around a tip is no area of its energy
-        Measure::Of(ENERGY_PER_AREA) if report[Elastic::NAMES.boundary] == "free" && key.ends_with("_energy") => {
+        Measure::Of(ENERGY_PER_AREA) if report[key!(Elastic, boundary)] == "free" && key.ends_with("_energy") => {
             let area: f64 =
-                report[Inputs::NAMES.lengths].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
+                report[key!(Inputs, lengths)].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
             units.number(area * value, ENERGY)
         }
         _ if key == "corrected_contact_fraction" => corrected(value, counted),
@@ -154,22 +154,23 @@ fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> S
 
 /// The error of the grid in the words of a summary, or the reason why there is none; nothing without nested grids.
 fn error_of_grid(report: &Value) -> Option<String> {
-    let errors = GridErrors::deserialize(&report["grid_error"]).ok()?;
-    let words = errors.in_words(Quantity::deserialize(&report["accuracy"]["of"]).ok());
-    words.or_else(|| Some(format!("unknown: {}", report["grid_error_reason"].as_str()?)))
+    let errors = GridErrors::deserialize(&report[key!(Account, grid_error)]).ok()?;
+    let words =
+        errors.in_words(report[key!(Account, accuracy)].get("of").and_then(|of| Quantity::deserialize(of).ok()));
+    words.or_else(|| Some(format!("unknown: {}", report[key!(Account, grid_error_reason)].as_str()?)))
 }
 
 /// The figures of a report by their names, in groups with a heading.
 pub fn groups(report: &Value, units: &Units) -> Vec<(&'static str, Vec<(String, String)>)> {
     let number = number_of(report, units);
     // the load is said once, under its own name
-    let given = report[Account::NAMES.control].as_str().unwrap_or_default().replace('-', "_");
+    let given = report[key!(Account, control)].as_str().unwrap_or_default().replace('-', "_");
     let once = |key: &str| match key {
         _ if is_constant(key, report) => false,
         "control" | "control_value" => !report[given.as_str()].is_f64(),
         "absent_nodes" => report[key] != 0,
         "under_resolved" => report[key] != false,
-        _ if report[Adhesion::NAMES.law] == "none" => {
+        _ if report[key!(Adhesion, law)] == "none" => {
             !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key)
         }
         _ => true,

@@ -8,7 +8,7 @@ use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::escaped;
 use asperity_scene::legs::{CASE, abscissa, value, varied};
-use asperity_scene::{Account, Load, Step, dimension_of_key};
+use asperity_scene::{Account, Load, Step, dimension_of_key, key};
 use serde_json::Value;
 use toml::Table;
 
@@ -48,7 +48,7 @@ pub fn page(table: &Path) -> Outcome<String> {
         _ => "sweep",
     };
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
-    let bad = |row: &Value| row[Account::NAMES.status] != "converged";
+    let bad = |row: &Value| row[key!(Account, status)] != "converged";
     let unconverged = rows.iter().filter(|row| bad(row)).count();
     let count = rows.len();
     let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
@@ -116,7 +116,7 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
     };
     let loads = parsed(&list.as_str().map_or_else(|| list.to_string(), str::to_owned), &number).ok()?.values;
     let (last, count, to) = (rows.last()?, loads.len(), loads.last()?);
-    match last[Step::NAMES.leg].as_u64() {
+    match last[key!(Step, leg)].as_u64() {
         None => (rows.len() < count).then(|| format!("it has {} of {count} rows", rows.len())),
         Some(leg) => {
             // a force is held by a mean pressure, and the position of a spring has no column of its own
@@ -125,7 +125,7 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
             let is_there = dimension.is_none() || (found - to).abs() <= 1e-6 * to.abs();
             // a withdrawal ends where the surfaces are apart
             let shares = ["contact_fraction", "attractive_fraction"].map(|share| value(last, share));
-            let is_apart = last[Step::NAMES.direction] == "withdrawal" && shares == [0.0; 2];
+            let is_apart = last[key!(Step, direction)] == "withdrawal" && shares == [0.0; 2];
             let is_over = leg as usize + 1 == count && (is_there || is_apart);
             (!is_over).then(|| format!("it ends on leg {leg} of {}", count - 1))
         }
@@ -153,7 +153,7 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
     if let Some((k, row)) = least.filter(|(_, row)| value(row, "normal_force") < 0.0) {
         let (at, place) = if free { ("an approach", "approach") } else { ("a mean gap", "mean_gap") };
         // what the surfaces come to in an approach, or still bear at the end, is no pull-off
-        let is_lost = row[Step::NAMES.direction] == "withdrawal" && k + 1 < rows.len();
+        let is_lost = row[key!(Step, direction)] == "withdrawal" && k + 1 < rows.len();
         let name = if is_lost { "pull-off force" } else { "greatest tensile force" };
         let force = columns.number("normal_force", -value(row, "normal_force"));
         figures.push((name.to_owned(), format!("at least {force}, at {at} of {}", told(row, place))));
@@ -163,13 +163,13 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
         }
     }
     let jumps: Vec<_> = rows.iter().filter(|row| value(row, "energy_drop") > 0.0).collect();
-    let of = |direction: &str| jumps.iter().filter(|row| row[Step::NAMES.direction] == direction).count();
+    let of = |direction: &str| jumps.iter().filter(|row| row[key!(Step, direction)] == direction).count();
     let (approach, withdrawal) = (of("approach"), of("withdrawal"));
     figures.push(("jumps".to_owned(), format!("{approach} in approach, {withdrawal} in withdrawal")));
     let per_area = if free { "" } else { " per area" };
     if let Some(last) = rows.last() {
         figures.push((format!("dissipated energy{per_area}"), told(last, "dissipated")));
-        if last[Account::NAMES.plastic_energy].is_number() {
+        if last[key!(Account, plastic_energy)].is_number() {
             figures.push((format!("plastic work{per_area}"), told(last, "plastic_energy")));
         }
     }

@@ -189,7 +189,7 @@ record! {
 record! {
     /// The place of a state on a cycle, by the names of its columns; see [`PathStep`].
     #[derive(Clone, Debug, PartialEq, Serialize)]
-    Step named StepNames of <T: Real>(found: &PathStep<T>, direction: &'static str) {
+    Step of <T: Real>(found: &PathStep<T>, direction: &'static str) {
         /// Leg of the loads: 0 is the start, 1 the way to the second load.
         leg: usize = found.leg,
         /// `approach` or `withdrawal`, at the start `start`.

@@ -10,7 +10,7 @@ use crate::key::{Adhesion, Elastic, Precision, Scene, Units, record};
 record! {
     /// The inputs of a command, by their names in every report.
     #[derive(Clone, Debug, Serialize)]
-    Inputs named InputNames of (scene: &Scene, shape: (usize, usize), lengths: (f64, f64), threads: usize) {
+    Inputs of (scene: &Scene, shape: (usize, usize), lengths: (f64, f64), threads: usize) {
         /// File of the heights.
         heights: Option<String> = None,
         /// File of the heights on the other side, or a word for them, if there are any.

@@ -55,7 +55,7 @@ const COLUMNS: [(&str, Measure); 14] = [
     ("conductance_error stiffness_error grid_error", Measure::Error),
     // of a patch, and of an error of the grid
     ("area_fraction relative", Measure::Share),
-    // of a surface, of two bodies whose moduli are Young's, and of closed forms
+    // of a surface, of two bodies with Young's moduli, and of closed forms
     ("fourier_unit half_width wavelength", Measure::Of(LENGTH)),
     ("young other_young", Measure::Of(PRESSURE)),
     ("load", Measure::Of(FORCE)),

@@ -13,7 +13,7 @@ use crate::numbers::percent;
 record! {
     /// The pull-off of a problem, as its report has it next to the account of the last state that holds.
     #[derive(Clone, Debug, PartialEq, Serialize)]
-    PulledOff named PulledOffNames of <T: Real>(
+    PulledOff of <T: Real>(
         asked: PullOff,
         found: &FoundPullOff<T>,
         report: &Report,

@@ -57,7 +57,7 @@ record! {
     /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default)]
-    Adhesion named AdhesionNames of (law: impl Into<String>) {
+    Adhesion of (law: impl Into<String>) {
         /// The name of the law, one of [`LAWS`] or the class of one's own.
         law: String = law.into(),
         /// The work of adhesion, if it is a parameter.

@@ -77,7 +77,7 @@ record! {
     /// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default)]
-    Elastic named ElasticNames of () {
+    Elastic of () {
         /// The boundary.
         boundary: Boundary = Boundary::default(),
         /// The contact modulus E*, a pressure; of a coated body the substrate's.

@@ -57,31 +57,7 @@ pub(crate) use choice;
 
 /// A struct of public fields, each with its meaning, its value, and the dimension of its number, as `[LENGTH]`, or another
 /// measure, as `as Share`, if it has one; the function that makes the struct of these values, and the list of the numbers.
-/// A struct of the names of the numbers may be `named`: by its fields a wrong name does not compile.
 macro_rules! record {
-    ($(#[$about:meta])* $name:ident named $names:ident of $($rest:tt)*) => {
-        record!($(#[$about])* $name of $($rest)*);
-        record!(@names $name $names $($rest)*);
-    };
-    (
-        @names $name:ident $names:ident $(<$scalar:ident $(: $bound:path)?>)? ($($given:tt)*) {
-            $($(#[$meta:meta])* $key:ident: $type:ty $([$dimension:expr])? $(as $measure:ident)? = $value:expr,)*
-        }
-    ) => {
-        /// The names of the numbers, in reports and in tables.
-        #[derive(Clone, Copy, Debug)]
-        pub struct $names {
-            $(
-                #[doc = concat!("`", stringify!($key), "`.")]
-                pub $key: &'static str,
-            )*
-        }
-
-        impl $name {
-            /// The names of the numbers.
-            pub const NAMES: $names = $names { $($key: stringify!($key),)* };
-        }
-    };
     (
         $(#[$about:meta])*
         $name:ident $(<$own:ident: $of:path>)? of $(<$scalar:ident $(: $bound:path)?>)? ($($given:ident: $kind:ty),* $(,)?) {

@@ -51,7 +51,7 @@ pub fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
 
 /// Whether rows belong to a cycle.
 fn is_cycle(rows: &[Value]) -> bool {
-    rows.first().is_some_and(|row| row[Step::NAMES.leg].is_u64())
+    rows.first().is_some_and(|row| row[crate::key!(Step, leg)].is_u64())
 }
 
 /// The least, the median and the greatest of values that are finite, if there are any.
