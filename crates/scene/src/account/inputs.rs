@@ -58,7 +58,7 @@ record! {
 }
 
 impl Scene {
-    /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
+    /// The inputs of a report as far as the scene has them, on a surface of a shape and side lengths.
     pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
         Inputs::of(self, shape, lengths, threads)
     }

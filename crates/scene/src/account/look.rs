@@ -8,7 +8,7 @@ use crate::account::{Account, Found, Inputs, Sight, untold};
 use crate::key::{Adhesion, Told};
 
 impl<T: Real> Found<T> {
-    /// The account of the solve by a command, of which [`Sight::look`] adds the keys that are found of the fields.
+    /// The account of the solve by a command; [`Sight::look`] adds the keys that follow from the fields.
     ///
     /// # Errors
     /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.

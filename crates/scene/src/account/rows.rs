@@ -22,7 +22,7 @@ pub(crate) enum Line {
 }
 
 /// The rows of a summary of solves after a look: the name of each, and its text for each of the solves, in units as far
-/// as they are known, and in the words of a skin. A row of which no solve has anything is left out.
+/// as they are known, and in the words of a skin. A row without any value is left out.
 pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Rows {
     let adheres = solves.iter().any(|solve| solve.inputs.adhesion.adheres());
     let told: Vec<_> = solves.iter().map(|solve| json!(solve)).collect();
