@@ -326,11 +326,12 @@ mod tests {
             "1,5\n\u{2212}2,5\n3,25",
             ",5\n1,5",
             "1,5,2,5\n4,5,5,5",
+            "1,5,2,5\n4,5,-5,5",
             "1,5,2,5,\n4,5,5,5,",
         ] {
             assert_refused(read(lines), &["decimal commas?"]);
         }
-        assert_eq!(read("1,5,2,5\n4,5,-5,5").unwrap().dim(), (2, 4));
+        assert_eq!(read("1,5,2,5\n4,-5,5,5").unwrap().dim(), (2, 4));
         assert_eq!(read("0.5,1\n1.5,2\n").unwrap().dim(), (2, 2));
         assert_eq!(read("1,-5\n2,5\n").unwrap().dim(), (2, 2));
         assert_eq!(read("1,2.5\n2,0.5\n").unwrap().dim(), (2, 2));
