@@ -27,7 +27,6 @@ __all__ = [
     "VERSION",
     "WaveContact",
     "WavyLine",
-    "between",
     "check_law",
     "closing_pressure_2d",
     "clusters",
@@ -123,7 +122,7 @@ class Problem:
     def __new__(
         cls,
         map: Topography,
-        against: tuple[str, tuple[float, float]] | None,
+        against: tuple[Topography | None, str | None],
         hardness: _Field | None,
         keywords: Keywords,
         symbol: tuple[Callable[..., Any], str, bool] | None,
@@ -131,6 +130,10 @@ class Problem:
     ) -> Problem: ...
     @property
     def beyond_theory(self) -> str | None: ...
+    @property
+    def posed(self) -> dict[str, Any]: ...
+    @property
+    def facing(self) -> str | None: ...
     def solve(
         self, keywords: dict[str, Any], start: str | _Field | None, observe: Callable[[Iteration], object] | None
     ) -> dict[str, Any]: ...
@@ -180,9 +183,6 @@ def knee_wavelength(heights: _Field, lengths: tuple[float, float]) -> float | No
 def spectrum(
     heights: _Field, lengths: tuple[float, float]
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
-def between(
-    first: Topography, second: Topography, shift: tuple[float, float], boundary: str, absent_missing: bool
-) -> _Field: ...
 def contact_modulus(bodies: list[tuple[float, float]]) -> float: ...
 def clusters(map: NDArray[np.bool_], periodic: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def contact_picture(contact: NDArray[np.bool_], lengths: tuple[float, float], unit: str | None) -> str: ...

@@ -1,11 +1,9 @@
 //! The inputs of a problem besides its keywords.
 
-use asperity::{Grid, Surface};
-use asperity_maps::surface_with_absent;
+use asperity_maps::Topography;
 use asperity_scene::allowed::Range;
 use asperity_scene::quantity::Quantity;
 use asperity_scene::{Measured, Quantities, Skin, dimension_of_key, numbers};
-use numpy::ndarray::Array2;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -14,7 +12,6 @@ use serde::de::DeserializeOwned;
 use serde_pyobject::from_pyobject;
 
 use crate::numbers::Field;
-use crate::refusal::refusal_of_heights;
 
 /// The object that a dictionary of keys and values describes.
 pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {
@@ -92,13 +89,26 @@ pub fn measured(key: &str, text: &str) -> PyResult<Quantity> {
 /// The map of a problem, by attributes of Python.
 #[derive(FromPyObject)]
 pub struct Map<'py> {
-    pub heights: Field<'py>,
-    pub lengths: (f64, f64),
-    /// The nodes of the original of a mirrored one
-    pub original: Option<(usize, usize)>,
+    heights: Field<'py>,
+    lengths: Option<(f64, f64)>,
     pub unit: Option<String>,
-    pub source: Option<String>,
-    pub scars_removed: Option<f64>,
+    /// The nodes of the original of a mirrored one
+    original: Option<(usize, usize)>,
+    periodic: Option<bool>,
+    scars_removed: Option<f64>,
+    source: Option<String>,
+    #[pyo3(attribute("_unread"))]
+    unread: Vec<String>,
+}
+
+impl Map<'_> {
+    /// The map with its name, as a case takes it.
+    pub fn named(self) -> PyResult<asperity_scene::Map> {
+        let mut map = Topography::new(self.heights.to_array()?);
+        (map.lengths, map.unit, map.original) = (self.lengths, self.unit, self.original);
+        (map.periodic, map.scars_removed, map.unread) = (self.periodic, self.scars_removed, self.unread);
+        Ok(asperity_scene::Map::whole(self.source, map))
+    }
 }
 
 /// The gap from which to start as Python passes it: a word for it, or an array.
@@ -113,10 +123,4 @@ impl Begin<'_> {
     pub fn word(&self) -> &'static str {
         if let Self::Word(_) = self { "apart" } else { "array" }
     }
-}
-
-/// The surface of heights, in which missing points may be absent nodes.
-pub fn surface(heights: Array2<f64>, lengths: (f64, f64), absent_missing: bool) -> PyResult<Surface> {
-    let make = if absent_missing { surface_with_absent } else { Surface::new };
-    Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights)).map_err(refusal_of_heights)
 }

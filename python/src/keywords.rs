@@ -49,6 +49,9 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
     if let Ok(value) = value.extract() {
         return Ok(Typed::Whole(value));
     }
+    if let Ok(value) = value.extract::<i64>() {
+        return Ok(Typed::Text(value.to_string()));
+    }
     value.extract().map(Typed::Number).or_else(|_| {
         let value = value.repr()?;
         let message =

@@ -43,7 +43,7 @@ mod _asperity {
         interface::interface_files,
         keywords::Keywords,
         law::{Law, check_law, cut_off, law, read_law, tabulated, varied},
-        pair::{between, contact_modulus},
+        pair::contact_modulus,
         problem::Problem,
         refusal::meant,
         running::Iteration,

@@ -12,7 +12,37 @@ use pyo3::prelude::*;
 /// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python,
 /// `FileNotFoundError` for a file that does not exist, and `MemoryError` for memory that there is not.
 pub fn refusal(error: Error) -> PyErr {
-    refused(error, "")
+    if let Some(raised) = error.source().and_then(|cause| cause.downcast_ref::<PyErr>()) {
+        return Python::attach(|py| raised.clone_ref(py));
+    }
+    let message = match &error {
+        Error::Unsuited { what, reason } => format!("{}: {reason}", what.replace('-', "_")),
+        error => error.to_string(),
+    };
+    let message = message
+        .replace(
+            "solve it without a wall (NoWall), or cut it at its equilibrium separation",
+            "give wall='none', or LennardJones(..., cut=True)",
+        )
+        .replace("or take a free half-space", "or boundary='free'")
+        .replace("asperity_maps::fill", "asperity.prepare(heights, lengths, fill=True)")
+        .replace(
+            "choose one, by asperity prepare --channel NUMBER",
+            "choose one, by asperity.read(path, channel=NUMBER)",
+        )
+        .replace("read it in Python by asperity.read, after pip install", "pip install")
+        .replace("by asperity prepare --skip-lines ", "by asperity.read(path, skip_lines=...), here ")
+        .replace("by asperity prepare --missing-word ", "by asperity.read(path, missing_words=...), here ")
+        .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
+        .replace("the traction of the law is", "law.traction is")
+        .replace("the energy of the law", "law.energy")
+        .replace("a range, the length over", "an attribute range, the length over")
+        .replace("check_functions says", "asperity.check_law(law) says");
+    match error {
+        Error::File { path, .. } if !path.exists() => PyFileNotFoundError::new_err(message),
+        Error::Memory { .. } => PyMemoryError::new_err(message),
+        _ => PyValueError::new_err(message),
+    }
 }
 
 /// The one of the keywords of a function that another word means.
@@ -20,12 +50,6 @@ pub fn refusal(error: Error) -> PyErr {
 pub fn meant(word: &str, known: Vec<String>) -> Option<String> {
     let known: Vec<_> = known.iter().map(|name| name.replace('_', "-")).collect();
     similar(&word.replace('_', "-"), known.iter().map(String::as_str)).map(|name| name.replace('-', "_"))
-}
-
-/// The exception of an error in the heights of a solve, in which missing points may be absent nodes.
-pub fn refusal_of_heights(error: Error) -> PyErr {
-    let missing = matches!(error, Error::NotFinite { value, .. } if value.is_nan());
-    refused(error, if missing { ", or treat them as absent nodes by absent_missing=True" } else { "" })
 }
 
 /// The exception of an error in a map of works of adhesion, in which no point can be missing.
@@ -55,40 +79,5 @@ pub fn refusal_of_session(error: Box<dyn std::error::Error + Send + Sync>) -> Py
             None => PyValueError::new_err(message),
         },
         Err(_) => PyValueError::new_err(message),
-    }
-}
-
-fn refused(error: Error, also: &str) -> PyErr {
-    if let Some(raised) = error.source().and_then(|cause| cause.downcast_ref::<PyErr>()) {
-        return Python::attach(|py| raised.clone_ref(py));
-    }
-    let message = match &error {
-        Error::Unsuited { what, reason } => format!("{}: {reason}", what.replace('-', "_")),
-        error => error.to_string(),
-    };
-    let message = message
-        .replace(
-            "solve it without a wall (NoWall), or cut it at its equilibrium separation",
-            "give wall='none', or LennardJones(..., cut=True)",
-        )
-        .replace("or take a free half-space", "or boundary='free'")
-        .replace("asperity_maps::fill", "asperity.prepare(heights, lengths, fill=True)")
-        .replace(
-            "choose one, by asperity prepare --channel NUMBER",
-            "choose one, by asperity.read(path, channel=NUMBER)",
-        )
-        .replace("read it in Python by asperity.read, after pip install", "pip install")
-        .replace("by asperity prepare --skip-lines ", "by asperity.read(path, skip_lines=...), here ")
-        .replace("by asperity prepare --missing-word ", "by asperity.read(path, missing_words=...), here ")
-        .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
-        .replace("the traction of the law is", "law.traction is")
-        .replace("the energy of the law", "law.energy")
-        .replace("a range, the length over", "an attribute range, the length over")
-        .replace("check_functions says", "asperity.check_law(law) says")
-        + also;
-    match error {
-        Error::File { path, .. } if !path.exists() => PyFileNotFoundError::new_err(message),
-        Error::Memory { .. } => PyMemoryError::new_err(message),
-        _ => PyValueError::new_err(message),
     }
 }

@@ -42,7 +42,7 @@ fn start<T: Scalar>(
     session.inputs.initial_gap = given.as_ref().map(Begin::word).map(str::to_owned);
     match (given, load) {
         (None, _) => Ok(None),
-        (Some(Begin::Gap(gap)), _) => Ok(Some(gap.as_array().to_owned())),
+        (Some(Begin::Gap(gap)), _) => session.start(gap.to_array()?).map(Some).map_err(refusal_of_session),
         (Some(Begin::Word(word)), Some(load)) if word == "apart" => {
             session.apart(load).map(Some).map_err(refusal_of_session)
         }

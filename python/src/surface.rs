@@ -31,6 +31,7 @@ pub struct Map<H> {
     original: Option<(usize, usize)>,
     seed: Option<u64>,
     scars_removed: Option<f64>,
+    periodic: Option<bool>,
 }
 
 /// A map that Python gives.
@@ -41,8 +42,8 @@ type Made<'py> = Map<Bound<'py, PyArray2<f64>>>;
 
 impl<'py> Made<'py> {
     fn of(py: Python<'py>, topography: Topography) -> Self {
-        let Topography { heights, lengths, unit, original, seed, scars_removed, .. } = topography;
-        Self { heights: heights.into_pyarray(py), lengths, unit, original, seed, scars_removed }
+        let Topography { heights, lengths, unit, original, seed, scars_removed, periodic, .. } = topography;
+        Self { heights: heights.into_pyarray(py), lengths, unit, original, seed, scars_removed, periodic }
     }
 }
 
@@ -51,7 +52,7 @@ impl Given<'_> {
     pub fn topography(self) -> PyResult<Topography> {
         let mut map = Topography::new(self.heights.to_array()?);
         (map.lengths, map.unit, map.original) = (self.lengths, self.unit, self.original);
-        (map.seed, map.scars_removed) = (self.seed, self.scars_removed);
+        (map.seed, map.scars_removed, map.periodic) = (self.seed, self.scars_removed, self.periodic);
         Ok(map)
     }
 }

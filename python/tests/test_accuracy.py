@@ -86,7 +86,7 @@ def test_an_accuracy_that_is_not_reached_is_a_warning_with_the_reason(coarse):
         ({"accuracy": 0.05, "tolerance": 1e-2}, "tolerance is 0.01: it must be at most a twentieth of the accuracy"),
         ({"accuracy": 0.05, "accuracy_of": "pressure"}, "accuracy of the pressure: it is given"),
         ({"accuracy": 0.05, "accuracy_of": "energy"}, "accuracy_of is energy: it must be area, gap"),
-        ({"accuracy": 0.05, "memory": -1}, "memory is -1: it must be positive, in GiB"),
+        ({"accuracy": 0.05, "memory": -1}, "memory is -1: it must be a number, positive"),
         ({"accuracy": 1e-7, "memory": 1e-2}, "1e-7 of the area takes about .*GiB.*enough for about"),
         ({"accuracy_of": "gap"}, "accuracy_of needs accuracy: give both"),
         ({"accuracy": 0.05, "nested": False}, "leave out nested"),

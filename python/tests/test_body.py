@@ -75,9 +75,9 @@ def test_numbers_have_units_or_none(rough):
 @pytest.mark.parametrize(
     ("body", "message"),
     [
-        (lambda: asperity.Layer(-0.1, 0.3), "thickness of the layer is -0.1: it must be positive and finite"),
-        (lambda: asperity.Layer(0.1, 0.6), "Poisson's ratio is 0.6: it must be greater than -1 and at most 0.5"),
-        (lambda: asperity.Coating(0.1, 0.0, 0.2, 0.3), "contact modulus is 0: it must be positive and finite"),
+        (lambda: asperity.Layer(-0.1, 0.3), "layer is -0.1: it must be a number, positive and finite"),
+        (lambda: asperity.Layer(0.1, 0.6), "poisson is 0.6: it must be a number greater than -1 and at most 0.5"),
+        (lambda: asperity.Coating(0.1, 0.0, 0.2, 0.3), "coating_modulus is 0.0: it must be a number, positive and finite"),
     ],
 )
 def test_bodies_that_do_not_exist_are_refused(rough, body, message):

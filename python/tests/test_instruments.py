@@ -54,7 +54,7 @@ def test_every_function_takes_such_a_file(tmp_path, scan):
     made = asperity.prepare(str(path), fill=True, mirror=True)
     assert made.shape == (24, 16) and made.source == str(path)
     assert asperity.surface.statistics(asperity.prepare(path, fill=True)).rms_height == pytest.approx(1e-9, rel=0.2)
-    with pytest.raises(ValueError, match="1 of 96 nodes"):
+    with pytest.raises(ValueError, match="1 of 12 x 8 heights are missing"):
         asperity.solve(path, modulus=1e9, mean_pressure=1e6)
 
 

@@ -86,7 +86,7 @@ def test_the_conductance_of_a_report_is_that_of_the_solution(rough):
     ("given", "error", "message"),
     [
         ({"resistivities": (1.0, 2.0)}, ValueError, "resistivities needs stiffness=True"),
-        ({"resistivities": (-1.0, 2.0), "stiffness": True}, ValueError, "resistivities is -1, 2: they must be zero or"),
+        ({"resistivities": (-1.0, 2.0), "stiffness": True}, ValueError, "resistivities is -1.0: it must be a number, zero or"),
         ({"resistivities": 1.0, "stiffness": True}, ValueError, "resistivities is 1.0: it must be two values"),
         (
             {"resistivities": (1.0, 1.0), "conductivities": (1.0, 1.0), "stiffness": True},
@@ -103,7 +103,7 @@ def test_the_conductance_of_a_report_is_that_of_the_solution(rough):
 def test_what_does_not_conduct_is_refused(rough, given, error, message):
     with pytest.raises(error, match=message):
         asperity.solve(rough, modulus=1.0, mean_pressure=0.01, **given)
-    with pytest.raises(ValueError, match="leakage is 2: it must be a share"):
+    with pytest.raises(ValueError, match="leakage is 2.0: it must be a share"):
         asperity.sweep(rough, leakage=2.0, **PRESSED)
 
 

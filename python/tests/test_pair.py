@@ -117,7 +117,7 @@ def test_originals_of_mirrored_maps_face_each_other(pair):
         ({"shift": 0.1}, "there is no surface on the other side"),
         ({"against": np.zeros((8, 8))}, "against has 8 x 8 nodes .*heights has 32 x 32 .*asperity.prepare\\(crop=...\\)"),
         ({"against": np.full((32, 32), np.nan)}, "1024 of 1024 points are missing: .*absent_missing=True"),
-        ({"against": np.zeros((32, 32)), "against_modulus": -1.0}, "modulus of the other body is -1: it must be positive"),
+        ({"against": np.zeros((32, 32)), "against_modulus": -1.0}, "against_modulus is -1.0: it must be a number, positive"),
         ({"against": np.zeros((32, 32)), "shift": (0.1, 0.0), "boundary": "free"}, "shift is 0.1 0, but with a free boundary"),
         ({"against": asperity.Topography(np.zeros((32, 32)), unit="nm")}, "against is in nm, but heights names no unit"),
     ],

@@ -48,7 +48,7 @@ def test_units_a_start_and_what_is_refused(rough):
         asperity.pull_off(rough, modulus=1.0, law=None)
     with pytest.raises(ValueError, match="springs: surfaces that sink into springs"):
         asperity.pull_off(rough, modulus=1.0, law=LAW, wall=asperity.Penalty(100.0))
-    with pytest.raises(ValueError, match="tolerance of the pull-off is 0: it must be positive, and less than 1"):
+    with pytest.raises(ValueError, match="rtol is 0: it must be a share between 0 and 1"):
         asperity.pull_off(rough, modulus=1.0, law=LAW, rtol=0)
     with pytest.raises(ValueError, match="leave out branch, or start"):
         asperity.pull_off(rough, modulus=1.0, law=LAW, start=held, branch="loading")

@@ -2,29 +2,27 @@
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use asperity::{Amplitude, Grid, SelfAffine, Status};
+use asperity_maps::Topography;
 use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map};
+use asperity_scene::{Map as HeightMap, Maps};
 use clap::{Args, CommandFactory};
 use serde_json::json;
 
-use crate::adhesion::Adhesion;
 use crate::allowed::threads;
-use crate::heights::Origin;
-use crate::options::Problem;
+use crate::heights::named;
 use crate::outcome::Outcome;
-use crate::part::Part;
 use crate::pictures::{self, PaperOptions, PictureFormat};
-use crate::printing::{Printing, in_options, name, on_terminal};
+use crate::printing::{Printing, name, on_terminal};
 use crate::progress::Progress;
 use crate::results::Results;
 use crate::scene::{self, SceneFile};
-use crate::session::{Strictness, session};
+use crate::session::Strictness;
 use crate::solve;
 use crate::summary::{table, warn};
-use crate::threads::use_threads;
+use crate::threads::{count, use_threads};
 use crate::units::Units;
 use crate::{Call, Command, Tool, parsed};
 
@@ -86,16 +84,17 @@ pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<boo
     let surface = spectrum.surface(grid)?;
     printing.say(TOLD);
     let heights = surface.heights().clone();
-    let surface = Arc::new(surface);
-    let solved = |name, options: &solve::Options, scene| -> Outcome<_> {
+    let mut map = Topography::from(surface);
+    map.unit = units.length.clone();
+    let solved = |name, options: &solve::Options, scene: &SceneFile| -> Outcome<_> {
         let problem = &options.problem()?;
-        let mut progress = Progress::new(name, problem.scene.tolerance(), grid.nodes(), printing.without_bars());
-        let adhesion = Adhesion::read(&problem.scene.adhesion, &problem.files, &grid, processes)?;
-        let (surface, origin, units) = (surface.clone(), Origin::default(), units.clone());
-        let given = Problem { surface, adhesion, origin, part: Part::all(grid), start: None, units };
-        let session = session::<f64>(problem, given, scene, Strictness::default(), processes)?;
+        let (case, map) =
+            (problem.case.among(scene.quantities()), HeightMap::whole(named(&problem.files.heights), map.clone()));
+        let posed = case.on(Maps::of(map), count(), processes)?;
+        let mut progress = Progress::new(name, case.scene().tolerance(), grid.nodes(), printing.without_bars());
+        let session = Strictness::default().session::<f64>(posed, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
-        let asked = in_options(problem.given.load().and_then(|load| problem.given.asked(load, 1.0)))?;
+        let asked = case.asked(1.0, false)?;
         let mut solved = session.solve(&asked, None, &mut progress.on_grids())?;
         solved.look()?;
         Ok((solved.found.solution, solved.account))

@@ -3,6 +3,7 @@
 use std::any::TypeId;
 use std::ffi::OsString;
 
+use asperity_scene::Key;
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgAction, Command};
 
@@ -28,6 +29,14 @@ pub fn hinted(tool: &Command, arguments: &[OsString], mut error: Error) -> Error
         (ErrorKind::ValueValidation, Some(command)) => of_several(tool, command, word, value),
         _ => Vec::new(),
     };
+    if let (true, Some(key)) = (hints.is_empty(), Key::named(&word.trim_start_matches('-').replace('-', "_")))
+        && let ErrorKind::ValueValidation | ErrorKind::InvalidValue = error.kind()
+        && let Err(reason) = key.value(value)
+    {
+        let mut said = Error::raw(ErrorKind::ValueValidation, format!("{word} is {value}: {reason}"));
+        said.insert(ContextKind::InvalidArg, ContextValue::String(word.to_owned()));
+        return said.with_cmd(tool);
+    }
     if !hints.is_empty() {
         let hints = hints.into_iter().map(Into::into).collect();
         error.remove(ContextKind::SuggestedArg);

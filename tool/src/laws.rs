@@ -10,7 +10,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use crate::Call;
-use crate::adhesion::uniform;
+use crate::adhesion::table_of;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::pictures::PaperOptions;
@@ -54,7 +54,7 @@ const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
-    let mut adhesion = options.adhesion.0.scene()?.adhesion;
+    let mut adhesion = options.adhesion.0.scene().adhesion;
     if let Some(name) = &options.name {
         adhesion.law = name.clone();
     }
@@ -78,7 +78,8 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         return Err(format!("--law {name} has the range of a grid, so that there is no curve without one").into());
     }
     let table = options.adhesion.0.files().law_table;
-    let law = f64::law(uniform(&adhesion, table.as_deref())?.0);
+    let tabulated = table.as_deref().map(table_of).transpose()?;
+    let law = f64::law(adhesion.formula(tabulated.as_ref().map(|(law, _)| law))?);
     check_apart(path, table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
     list(chosen);

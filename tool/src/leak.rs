@@ -14,14 +14,15 @@ use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::Call;
-use crate::heights::{self, check_room, converted, warn_of_unread};
+use crate::heights::{self, check_room, converted, unread};
 use crate::outcome::Outcome;
 use crate::pictures::{PaperOptions, PictureFormat};
-use crate::printing::{Printing, aligned, complain, in_options, name, warn};
+use crate::printing::{Printing, aligned, complain, in_options, name};
 use crate::quantity::LENGTH;
 use crate::report;
 use crate::results::{self, Contents, REPORT, Results, write_report};
 use crate::scene::{self, SceneFile};
+use crate::session;
 use crate::solved::{GAP, Solved, units_of};
 use crate::units::Units;
 
@@ -138,8 +139,8 @@ impl Options {
             }
             return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
         }
-        let (map, _) = heights::map(path, &self.lengths.0, si)?;
-        warn_of_unread(path, &map, "are taken as 1 x 1", &mut warn);
+        let map = heights::map(path, &self.lengths.0, si)?;
+        session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
         Ok((map, Boundary::Periodic))
     }
 

@@ -38,7 +38,6 @@ mod heights;
 mod hints;
 mod interruption;
 mod options;
-mod part;
 mod pictures;
 mod printing;
 mod progress;

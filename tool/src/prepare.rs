@@ -10,11 +10,12 @@ use clap::{ArgGroup, Args};
 use serde_json::json;
 
 use crate::Call;
-use crate::heights::{check_room, warn_of_unread};
+use crate::heights::{check_room, unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, aligned, in_options, name, say, warn};
+use crate::printing::{Printing, aligned, in_options, name, say};
 use crate::session;
+use crate::units::Units;
 
 /// Make a measured map into a surface that can be solved.
 ///
@@ -122,7 +123,7 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
     check_room(map.heights.dim())?;
     let steps = in_options(options.steps.0.steps(map.heights.dim(), si, map.unit.as_deref()))?;
     if steps.lengths.is_none() {
-        warn_of_unread(&options.input, &map, "stay unknown", &mut warn);
+        session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
     }
     let map = steps.run(map, log);
     session::say(&log.warnings);

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use asperity::Status;
 use asperity_maps::io::write_npy;
 use asperity_scene::{
-    AdhesionKeys, Chosen, Precision, PullOffKeys, Skin, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write,
+    AdhesionKeys, Chosen, Posed, Precision, PullOffKeys, Skin, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write,
 };
 use clap::Args;
 use serde_json::json;
 
 use crate::Call;
-use crate::options::{Problem, ProblemOptions, Scalar};
+use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, aligned, complain, in_options};
 use crate::processes::Processes;
@@ -19,7 +19,7 @@ use crate::progress::Progress;
 use crate::report;
 use crate::results::{self, REPORT, Results, write_report};
 use crate::scene::{self, SceneFile};
-use crate::session::{Strictness, say_new, session};
+use crate::session::{Strictness, say_new};
 use crate::solve::FIELDS;
 use crate::summary::warn;
 
@@ -64,10 +64,10 @@ const EXAMPLES: &str = "\
 pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let problem = &options.problem()?;
     options.results(scene).map_or(Ok(()), |results| results.check(problem.files()))?;
-    let given = problem.read(scene.is_si(), processes)?;
-    match problem.scene.precision {
-        Precision::F32 => options.find::<f32>(problem, given, scene, processes),
-        Precision::F64 => options.find::<f64>(problem, given, scene, processes),
+    let posed = problem.read(scene, processes)?.posed;
+    match problem.case.scene().precision {
+        Precision::F32 => options.find::<f32>(problem, posed, scene, processes),
+        Precision::F64 => options.find::<f64>(problem, posed, scene, processes),
     }
 }
 
@@ -75,8 +75,8 @@ impl Options {
     /// The problem; refuses a surface that yields.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
         let problem = ProblemOptions::of([&self.problem.0])?;
-        problem.check_table()?;
-        problem.check_elastic(
+        problem.case.check_table()?;
+        problem.case.check_elastic(
             "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
         )?;
         Ok(problem)
@@ -91,15 +91,17 @@ impl Options {
     fn find<T: Scalar>(
         &self,
         problem: &ProblemOptions,
-        mut given: Problem,
+        posed: Posed,
         scene: &SceneFile,
         processes: &Processes,
     ) -> Outcome<bool> {
-        let (printing, nodes, start) = (self.printing, given.surface.grid().nodes(), given.start.take());
-        let session = session::<T>(problem, given, scene, self.strictness, processes)?;
+        let (printing, nodes) = (self.printing, posed.surface.grid().nodes());
+        let session = self.strictness.session::<T>(posed, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
+        let start = problem.start(&mut session, processes)?;
         say_new(&mut session.warnings);
-        let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
+        let given = problem.case.given();
+        let (asked, goal) = (given.pull_off(), in_options(given.goal())?);
         let announcement = session.announce_pull_off(goal.is_some())?;
         let (units, tolerance) = (session.units().clone(), session.tolerance(None)?);
         let mut progress = Progress::new("", tolerance, nodes, printing.without_bars());

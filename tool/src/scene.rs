@@ -65,6 +65,11 @@ impl SceneFile {
         self.quantities.check(Skin::Options)
     }
 
+    /// The quantities of the command.
+    pub fn quantities(&self) -> Quantities {
+        self.quantities.clone()
+    }
+
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
     pub fn given(&self) -> Option<serde_json::Value> {
         self.quantities.given()

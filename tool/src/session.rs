@@ -2,15 +2,13 @@
 
 use std::io::{self, IsTerminal};
 
-use asperity_scene::{Input, Session, Skin, Told};
+use asperity_scene::{Posed, Session, Told};
 use clap::Args;
 
-use crate::options::{Problem, ProblemOptions, Scalar};
+use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::printing::complain;
 use crate::processes::Processes;
-use crate::report;
-use crate::scene::SceneFile;
 use crate::warnings::Warnings;
 
 /// The code of the warning that rows have not converged, which precedes its message.
@@ -38,27 +36,9 @@ pub fn say(warnings: &[Told]) {
     }
 }
 
-/// The session of a problem, with what was read of its files.
-pub fn session<T: Scalar>(
-    problem: &ProblemOptions,
-    given: Problem,
-    scene: &SceneFile,
-    strictness: Strictness,
-    processes: &Processes,
-) -> Outcome<Session<T>> {
-    let Problem { surface, adhesion, origin, part, units, .. } = given;
-    let input = Input {
-        surface,
-        formula: adhesion.formula,
-        hardness: adhesion.hardness,
-        original: part.wanted(),
-        converted_from: origin.converted_from,
-        scars_removed: origin.scars_removed,
-        is_strict: strictness.strict,
-        skin: Skin::Options,
-    };
-    let inputs = report::inputs(problem, &part, &units, scene);
-    let mut session = Session::new(&problem.scene, input, inputs, units, processes)?;
-    session.seed = origin.seed;
-    Ok(session)
+impl Strictness {
+    /// The session of a problem, in which warnings are errors if that is asked for.
+    pub fn session<T: Scalar>(self, posed: Posed, processes: &Processes) -> Outcome<Session<T>> {
+        Session::new(posed, self.strict, processes)
+    }
 }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use asperity::Status;
 use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, Asked, Boundary, Chosen, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys,
-    NestedKeys, PercolationKeys, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+    AccuracyKeys, AdhesionKeys, Boundary, Chosen, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys, NestedKeys,
+    Part, PercolationKeys, Posed, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
 };
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
@@ -17,16 +17,15 @@ use serde_json::json;
 use self::beside::{BESIDE, Beside};
 use crate::Call;
 use crate::allowed::bins;
-use crate::options::{Problem, ProblemOptions, Scalar};
+use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::part::Part;
 use crate::pictures::{MapColours, PaperOptions, PictureFormat};
-use crate::printing::{Printing, complain, in_options};
+use crate::printing::{Printing, complain};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::results::{self, REPORT, Results};
-use crate::scene::{self, SceneFile};
-use crate::session::{Strictness, say_new, session};
+use crate::scene;
+use crate::session::{Strictness, say_new};
 use crate::summary::{table, warn};
 
 /// Solve a contact problem under one load.
@@ -125,20 +124,16 @@ pub fn files() -> Vec<String> {
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let problem = &options.problem()?;
-    let load = in_options(problem.given.load())?;
-    options.check_asked(problem, load, processes)?;
-    problem.check_loads(&[load])?;
+    options.check_asked(problem, processes)?;
     options.colours.check()?;
     let results = options.out.as_deref().map(|out| Results { out, scene, files: files(), force: options.force });
     processes.first(|| results.as_ref().map_or(Ok(()), |results| results.check(problem.files())))?;
-    let given = problem.read(scene.is_si(), processes)?;
-    let full = problem.full_pressure(&given.surface, &[load])?;
-    let asked = in_options(problem.given.asked(load, full))?;
-    let (part, pictures) = (given.part, !options.no_pictures && results.is_some());
-    let job = Job { options, problem, scene, results, processes, asked, part, pictures };
-    match problem.scene.precision {
-        Precision::F32 => job.run::<f32>(given),
-        Precision::F64 => job.run::<f64>(given),
+    let posed = problem.read(scene, processes)?.posed;
+    let pictures = !options.no_pictures && results.is_some();
+    let job = Job { options, problem, results, processes, part: posed.part, pictures };
+    match problem.case.scene().precision {
+        Precision::F32 => job.run::<f32>(posed),
+        Precision::F64 => job.run::<f64>(posed),
     }
 }
 
@@ -153,17 +148,15 @@ impl Options {
     }
 
     /// Refuses what excludes each other, and what has no form for several processes.
-    fn check_asked(&self, problem: &ProblemOptions, load: Load, processes: &Processes) -> Outcome<()> {
-        let asked = in_options(problem.given.asked(load, 1.0))?;
-        let (scene, started) = (&problem.scene, problem.files.initial_gap.is_some());
-        if self.fields.is_some() && scene.elastic.boundary == Boundary::Free {
+    fn check_asked(&self, problem: &ProblemOptions, processes: &Processes) -> Outcome<()> {
+        let asked = problem.case.asked(1.0, problem.files.initial_gap.is_some())?;
+        if self.fields.is_some() && problem.case.scene().elastic.boundary == Boundary::Free {
             processes.alone("--fields displacement with a free boundary")?;
         }
         if asked.goal.is_some() {
             processes.alone("--accuracy")?;
         }
-        problem.check_after(&asked.after, processes)?;
-        in_options(asked.check(&scene.adhesion, scene.method, started))
+        problem.check_after(&asked.after, processes)
     }
 }
 
@@ -171,11 +164,9 @@ impl Options {
 struct Job<'a> {
     options: &'a Options,
     problem: &'a ProblemOptions,
-    scene: &'a SceneFile,
     /// The folder of the results, if they are to be written
     results: Option<Results<'a>>,
     processes: &'a Processes,
-    asked: Asked,
     part: Part,
     pictures: bool,
 }
@@ -184,7 +175,7 @@ impl Job<'_> {
     /// The files of these options.
     fn names(&self) -> Vec<String> {
         let (options, picture) = (self.options, |name| self.options.picture_format.file(name));
-        let arrays = FIELDS.into_iter().chain(options.beside(&self.problem.scene));
+        let arrays = FIELDS.into_iter().chain(options.beside(self.problem.case.scene()));
         let arrays = arrays.filter(|_| options.writes(Format::Npy));
         let archives =
             [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
@@ -193,25 +184,27 @@ impl Job<'_> {
         names.chain(PICTURES.into_iter().filter(|_| self.pictures).map(picture)).collect()
     }
 
-    fn run<T: Scalar>(mut self, mut given: Problem) -> Outcome<bool> {
-        let (options, processes, mut grid) = (self.options, self.processes, *given.surface.grid());
+    fn run<T: Scalar>(mut self, posed: Posed) -> Outcome<bool> {
+        let (options, processes, mut grid) = (self.options, self.processes, *posed.surface.grid());
         let printing = options.printing;
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
         if !fits {
             self.leave_out_what_takes_whole_fields()?;
         }
-        let start = given.start.take().map(T::field);
-        let kept = options.fields.map(|Beside::Displacement| given.surface.clone());
-        let session = session::<T>(self.problem, given, self.scene, options.strictness, processes)?;
+        let kept = options.fields.map(|Beside::Displacement| posed.surface.clone());
+        let session = options.strictness.session::<T>(posed, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
+        let start = self.problem.start(&mut session, processes)?.map(T::field);
+        let full = session.full_pressure(&[self.problem.case.load()?])?;
+        let asked = self.problem.case.asked(full, start.is_some())?;
         say_new(&mut session.warnings);
-        let tolerance = session.tolerance(self.asked.goal)?;
+        let tolerance = session.tolerance(asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
-        if let Some(goal) = self.asked.goal {
-            let (plan, time) = session.plan(self.asked.control, goal)?;
+        if let Some(goal) = asked.goal {
+            let (plan, time) = session.plan(asked.control, goal)?;
             printing.say(&goal.announced(&plan, time));
         }
-        let solved = session.solve(&self.asked, start, &mut progress.on_grids());
+        let solved = session.solve(&asked, start, &mut progress.on_grids());
         drop(progress);
         let mut solved = solved?;
         say_new(&mut session.warnings);
@@ -224,7 +217,7 @@ impl Job<'_> {
         let Solved { found, account } = solved;
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
-        let mut beside = options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
+        let mut beside = options.fields_beside(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
         let solution = &found.solution;
 
         let mut told = Vec::new();

@@ -12,7 +12,7 @@ use serde_json::Map;
 
 use crate::Call;
 use crate::csv;
-use crate::heights::{self, check_complete, check_room, warn_of_unread};
+use crate::heights::{self, check_complete, check_room, unread};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, aligned, warn};
@@ -58,16 +58,15 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let (path, psd) = (&options.heights, options.psd.as_deref());
     psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let (map, _) = heights::map(path, &options.lengths.0, scene.is_si())?;
+    let map = heights::map(path, &options.lengths.0, scene.is_si())?;
     check_room(map.heights.dim())?;
-    warn_of_unread(path, &map, "stay unknown", &mut warn);
     if map.lengths.is_some() && !map.unread.is_empty() {
         warn(format!("{} also has {}", path.display(), map.unread.join(", ")));
     }
     let units = Units::of_map(map.unit.as_deref());
     let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
     let found = surface.as_ref().map_or_else(|| Warning::of_topography(&map), Warning::of_surface);
-    session::say(&found.iter().map(|found| units.told(found)).collect::<Vec<_>>());
+    session::say(&unread(&map).iter().chain(&found).map(|found| units.told(found)).collect::<Vec<_>>());
     check_complete(path, &map)?;
     if let Some(file) = psd {
         let Some(surface) = &surface else {

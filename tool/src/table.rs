@@ -17,13 +17,13 @@ use crate::numbers::percent;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
-use crate::printing::{Printing, complain, in_options, name};
+use crate::printing::{Printing, complain, name};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::SceneFile;
-use crate::session::{Strictness, UNCONVERGED, say_new, session};
+use crate::session::{Strictness, UNCONVERGED, say_new};
 use crate::warnings;
 
 /// The replacements, refusals and prints of a run that fills a table.
@@ -94,42 +94,35 @@ impl<'a> TableOptions<'a> {
     /// Reads the files of the problem, opens the table, and fills it.
     pub fn fill(self, by: &impl Fill) -> Outcome<bool> {
         let problem = self.problem;
-        let mut after = in_options(problem.given.after())?;
-        after.stiffness |= self.interface;
-        problem.check_table()?;
-        let loads = in_options(problem.given.loads())?;
-        problem.check_loads(&loads)?;
+        let after = problem.case.after(self.interface)?;
+        problem.case.check_table()?;
+        let loads = problem.case.loads()?;
         problem.check_after(&after, self.processes)?;
-        let given = problem.read(self.scene.is_si(), self.processes)?;
-        match problem.scene.precision {
+        let given = problem.read(self.scene, self.processes)?;
+        match problem.case.scene().precision {
             Precision::F32 => by.fill(&mut self.open::<f32>(given, &loads, after, by)?),
             Precision::F64 => by.fill(&mut self.open::<f64>(given, &loads, after, by)?),
         }
     }
 
     /// Opens the table, writes the scene of the run next to it, and says the warnings so far.
-    fn open<T: Scalar>(
-        self,
-        mut given: Problem,
-        loads: &[Load],
-        after: After,
-        by: &impl Fill,
-    ) -> Outcome<Table<'a, T>> {
+    fn open<T: Scalar>(self, given: Problem, loads: &[Load], after: After, by: &impl Fill) -> Outcome<Table<'a, T>> {
         let Self { problem, out, scene, processes, manner, .. } = self;
         let &Manner { force, strictness, printing } = manner;
-        let grid = *given.surface.grid();
-        let way = by.way(loads, problem.full_pressure(&given.surface, loads)?)?;
-        let control = way.control(&problem.scene);
-        let theories = by.theories(&given.surface, &problem.scene)?;
+        let (Problem { posed, table: law_table, works }, of_case) = (given, problem.case.scene());
+        let grid = *posed.surface.grid();
+        let theories = by.theories(&posed.surface, of_case)?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
+        let mut session = strictness.session::<T>(posed, processes)?;
+        let way = by.way(loads, session.full_pressure(loads)?)?;
+        let control = way.control(of_case);
         // the softest mode of a path is on the grid of the surface
-        if problem.scene.elastic.boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
+        if of_case.elastic.boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
             processes.alone("a cycle with --boundary free")?;
         }
-        let (start, law_table, works) = (given.start.take(), given.adhesion.table.take(), given.adhesion.works.take());
-        let mut session = session::<T>(problem, given, scene, strictness, processes)?;
+        let start = problem.start(&mut session, processes)?;
         let mut scene_file = None;
         processes.first(|| {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
@@ -167,12 +160,12 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Whether the boundary is free.
     pub fn is_free(&self) -> bool {
-        self.options.problem.scene.elastic.boundary == Boundary::Free
+        self.options.problem.case.scene().elastic.boundary == Boundary::Free
     }
 
     /// Whether loads are searched for.
     pub fn searches(&self) -> bool {
-        matches!(self.options.problem.given.loads().as_deref(), Ok([Load::Fraction(_), ..]))
+        matches!(self.options.problem.case.given().loads().as_deref(), Ok([Load::Fraction(_), ..]))
     }
 
     /// Does something in the first process alone.
@@ -194,7 +187,7 @@ impl<T: Scalar> Table<'_, T> {
             return Ok(None);
         }
         let name = format!("{}{}", self.session.rows() + 1, of_rows(&self.session, "/"));
-        let tolerance = problem.scene.tolerance();
+        let tolerance = problem.case.scene().tolerance();
         let mut progress = Progress::new(&name, tolerance, self.nodes, manner.printing.without_bars());
         progress.follow(self.session.pace().copied());
         let found = self.session.next(&mut |state| {
@@ -213,7 +206,7 @@ impl<T: Scalar> Table<'_, T> {
         let TableOptions { problem, manner, .. } = self.options;
         let Some((nx, ny)) = self.session.coarser_shape() else { return Ok(None) };
         manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
-        let tolerance = problem.scene.tolerance();
+        let tolerance = problem.case.scene().tolerance();
         let mut progress = Progress::new("coarser", tolerance, nx * ny, manner.printing.without_bars());
         self.session.cycle_limit(&mut |state| {
             progress.update(state);
@@ -262,7 +255,7 @@ impl<T: Scalar> Table<'_, T> {
             ("rows".to_owned(), self.session.rows().into()),
             ("unconverged".to_owned(), self.session.unconverged().into()),
             ("out".to_owned(), out.to_string_lossy().into()),
-            ("spring_stiffness".to_owned(), problem.given.spring_stiffness().into()),
+            ("spring_stiffness".to_owned(), problem.case.given().spring_stiffness().into()),
         ]);
         outcome.extend(found.as_object().cloned().unwrap_or_default());
         outcome.insert("warnings".to_owned(), json!(self.session.warnings.found()));
@@ -273,7 +266,7 @@ impl<T: Scalar> Table<'_, T> {
     pub fn converged(&self, remedy: &str) -> bool {
         let (count, rows) = (self.session.unconverged(), self.session.rows());
         if count > 0 {
-            let precise = match self.options.problem.scene.precision {
+            let precise = match self.options.problem.case.scene().precision {
                 Precision::F32 => "use --precision f64, ",
                 Precision::F64 => "",
             };

@@ -70,7 +70,7 @@ fn both_branches_are_refused_where_there_is_nothing_to_compare() {
                 "sweep {} --mean-pressures 1e-3,2e-3 --branch both --out none.csv",
                 STICKY.replace(" --no-pictures", "")
             ),
-            "asperity solve",
+            "solve under one",
         ),
     ] {
         bench.refused_with(&line, &["--branch both", reason]);

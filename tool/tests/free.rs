@@ -131,7 +131,7 @@ fn loads_that_a_boundary_does_not_have_are_refused_on_one_line() {
         ("solve --heights tip.npz --boundary free --mean-gap 0.1 --out x", vec!["mean gap", "--boundary periodic"]),
         ("solve --heights tip.npz --spring-stiffness 1 --out x", vec!["--spring-position"]),
         ("solve --heights tip.npz --spring-position 1 --out x", vec!["--spring-stiffness"]),
-        ("solve --heights tip.npz --spring-stiffness -1 --spring-position 0 --out x", vec!["'-1'", "positive"]),
+        ("solve --heights tip.npz --spring-stiffness -1 --spring-position 0 --out x", vec!["is -1", "positive"]),
         (
             "solve --heights tip.npz --normal-force 1 --mean-pressure 1 --out x",
             vec!["--normal-force", "cannot be used with"],
@@ -141,7 +141,7 @@ fn loads_that_a_boundary_does_not_have_are_refused_on_one_line() {
         ("sweep --heights tip.npz --approaches 0,1 --out x.csv", vec!["approach", "--boundary free"]),
         ("cycle --heights tip.npz --boundary free --mean-gaps 0,1 --out x.csv", vec!["mean gap"]),
         ("surface --form sphere --size 8 --out x.npy", vec!["--form sphere lacks --radius"]),
-        ("surface --form cone --angle 90 --size 8 --out x.npy", vec!["--angle", "'90'", "below 90"]),
+        ("surface --form cone --angle 90 --size 8 --out x.npy", vec!["--angle", "is 90", "below 90"]),
         ("surface --form wave --amplitude 1 --radius 1 --size 8 --out x.npy", vec!["--form wave has no --radius"]),
         (
             "surface --form wave --amplitude 1 --periods 5 --size 8 --out x.npy",

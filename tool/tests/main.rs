@@ -12,6 +12,7 @@ mod commands;
 mod contact;
 mod fraction;
 mod free;
+mod givens;
 mod hardness;
 mod hints;
 mod hostile;

@@ -49,13 +49,13 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     let solve = "--modulus 1e9 --mean-pressure 1e6 --pressure-unit Pa --out";
 
     // as it is, it cannot be solved, and the error says what to do
-    let remedy = "asperity prepare measured.gsf --fill --out filled.npz";
+    let remedy = "asperity prepare --fill";
     bench.refused_with(
         &format!("solve --heights measured.gsf {solve} raw"),
-        &["61 x 45 heights", &format!("{missing} missing"), remedy],
+        &[&format!("{missing} of 61 x 45 heights are missing"), remedy],
     );
     bench.refused_with("stats measured.gsf", &[remedy]);
-    bench.printed(remedy.strip_prefix("asperity ").unwrap());
+    bench.printed("prepare measured.gsf --fill --out filled.npz");
     assert!(bench.printed("stats filled.npz").contains("3.05 µm x 2.25 µm"));
 
     let said = bench.printed("prepare measured.gsf --detrend plane --fill --mirror --out surface.npz");
@@ -264,7 +264,7 @@ fn lengths_of_files_and_of_options() {
     {
         bench.refused_with(
             &format!("{command} --lengths 2 1"),
-            &["--lengths", "2 x 1", "2 nm x 1 nm", "leave --lengths out", "asperity prepare"],
+            &["--lengths", "sides of 2 m x 1 m", "2 nm x 1 nm", "leave --lengths out", "asperity prepare"],
         );
     }
     // the file has a unit, in which these are metres
@@ -380,9 +380,9 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
         ("prepare holes.txt --fill --window 0.1 --mirror --out n.npz", vec!["--window", "--mirror"]),
         ("prepare holes.txt --crop 0 0 4 1 --out n.npz", vec!["crop along x", "is 4", "within the map"]),
         ("prepare holes.txt --crop 0 0 4 --out n.npz", vec!["--crop"]),
-        ("prepare holes.txt --fill --resample 0 4 --out n.npz", vec!["--resample", "'0'"]),
+        ("prepare holes.txt --fill --resample 0 4 --out n.npz", vec!["--resample", "is 0"]),
         ("prepare holes.txt --fill --resample 16000000 16000000 --out n.npz", vec!["memory", "fewer"]),
-        ("prepare holes.txt --scale 0 --out n.npz", vec!["--scale", "'0'"]),
+        ("prepare holes.txt --scale 0 --out n.npz", vec!["--scale", "is 0"]),
         ("prepare nm.txt --scale 1e-9 --out n.npz", vec!["scale is 1e-9", "the file tells the unit"]),
         ("prepare holes.txt --detrend cubic --out n.npz", vec!["cubic", "quadric"]),
         ("prepare none.txt --out n.npz", vec!["none.txt", "does not exist"]),

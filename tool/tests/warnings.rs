@@ -359,10 +359,12 @@ fn prepare_looks_at_the_slope_that_its_lengths_make() {
 #[test]
 fn an_infinite_height_is_not_called_missing() {
     let bench = bench();
-    for (name, count) in [("infinite.npy", "1 infinite"), ("both.npy", "1 infinite")] {
+    for (name, count) in
+        [("infinite.npy", "1 of 32 x 32 heights are infinite"), ("both.npy", "1 of 32 x 32 heights are infinite")]
+    {
         let refused = bench.refused(&format!("solve --heights {name} --mean-gap 1 --out results"));
         assert!([count, "(-inf)", "[3, 5]"].iter().all(|part| refused.contains(part)), "{refused}");
-        assert!(!refused.contains("1 missing") && !refused.contains("fill missing points first"), "{refused}");
+        assert!(!refused.contains("are missing") && !refused.contains("--absent-missing"), "{refused}");
     }
     let said = bench.said("prepare both.npy --lengths 1 --fill --out filled.npz");
     assert!(said.contains("1 missing, 1 infinite") && said.contains("2 of 1024 points filled"), "{said}");

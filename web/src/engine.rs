@@ -8,7 +8,7 @@ use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Body, CutOffKeys, FormKeys, Given, GridKeys, Log, NewLengthsKeys, Roughness, RoughnessKeys, Skin, StepKeys,
+    Body, Case, CutOffKeys, FormKeys, GridKeys, Log, NewLengthsKeys, Objects, Roughness, RoughnessKeys, Skin, StepKeys,
     statistics, without_files,
 };
 use ndarray::Array2;
@@ -196,8 +196,8 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and errors of the solvers.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
-        let given = read(given, of_problem())?;
-        self.pose(&given, from_last)?.solve(&given, from_last, observe)
+        let case = case(given)?;
+        self.pose(&case, from_last)?.solve(&case, from_last, observe)
     }
 
     /// The gap of the last solution, for [`Engine::start_from`] of another engine with the same surface.
@@ -222,15 +222,15 @@ impl Engine {
     /// # Errors
     /// The key and the remedy.
     pub fn begin(&mut self, given: &str) -> Outcome<Value> {
-        let given = read(given, of_problem())?;
-        self.pose(&given, false)?.begin(&given)
+        let case = case(given)?;
+        self.pose(&case, false)?.begin(&case)
     }
 
     /// The problem that keys pose; the one before stays where they are refused.
-    fn pose(&mut self, given: &Given, goes_on: bool) -> Outcome<&mut Problem> {
+    fn pose(&mut self, case: &Case, goes_on: bool) -> Outcome<&mut Problem> {
         let mut before = self.problem.take();
         let start = self.start.take();
-        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, start, goes_on);
+        let problem = Problem::of(case, self.surface()?, self.origin.name(), &mut before, start, goes_on);
         self.problem = before;
         Ok(self.problem.insert(problem?))
     }
@@ -273,4 +273,11 @@ impl Engine {
             "python": self.origin.python(typed, started),
         }))
     }
+}
+
+/// The case of the keys of a solve or a cycle.
+fn case(given: &str) -> Outcome<Case> {
+    let given = read(given, of_problem())?;
+    let quantities = given.quantities();
+    Case::of(given, quantities, Objects::default(), Skin::Keywords)
 }

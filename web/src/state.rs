@@ -3,22 +3,19 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use asperity::contact::{Original, Region, bulk};
+use asperity::contact::{Region, bulk};
 use asperity::solver::Iteration;
 use asperity::{Grid, Solution, Surface};
 use asperity_maps::io::npz;
 use asperity_plot::{Distribution, LoadScale};
 use asperity_scene::outcome::Outcome;
-use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, After, Asked, Found, Input, Inputs, Load, Scalar, Scene, Session, Skin, Way, csv, gap_to_write, rows,
-    shortfalls,
+    Account, After, Case, Found, Inputs, Load, Part, Scalar, Session, Skin, Way, csv, gap_to_write, rows, shortfalls,
 };
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use crate::given::reason;
 use crate::lines::START;
 
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
@@ -31,7 +28,7 @@ const FIELDS: [&str; 5] = ["gap", "pressure", "contact_pressure", "displacement"
 pub struct State<T: Scalar> {
     session: Session<T>,
     surface: Arc<Surface>,
-    original: Option<Original>,
+    part: Part,
     last: Option<Last<T>>,
     /// A gap from which to start that is of another problem.
     before: Option<Array2<T>>,
@@ -48,18 +45,10 @@ struct Last<T: Scalar> {
 }
 
 impl<T: Scalar> State<T> {
-    /// The problem of a scene on a surface; solves continue from a gap of `before`.
-    pub fn new(
-        scene: &Scene,
-        input: Input,
-        inputs: Inputs,
-        units: Units,
-        before: Option<Array2<f64>>,
-    ) -> Outcome<Self> {
-        let (surface, original) = (input.surface.clone(), input.original);
-        let session = Session::new(scene, input, inputs, units, &Processes::start()?)?.with_slopes()?;
+    /// The session on a surface, of which a part is shown; solves continue from a gap of `before`.
+    pub fn new(session: Session<T>, surface: Arc<Surface>, part: Part, before: Option<Array2<f64>>) -> Self {
         let before = before.filter(|gap| gap.dim() == surface.grid().shape()).map(T::field);
-        Ok(Self { session, surface, original, last: None, before, table: Vec::new() })
+        Self { session, surface, part, last: None, before, table: Vec::new() }
     }
 
     /// The gap of the last solution, or of another problem.
@@ -83,7 +72,7 @@ impl<T: Scalar> State<T> {
 
     /// The grid of the results.
     fn shown(&self) -> Grid {
-        self.original.map_or(*self.surface.grid(), |original| *original.grid())
+        self.part.grid()
     }
 
     /// A field of a solution by its name, on the part with results, if the solution has it.
@@ -106,7 +95,7 @@ impl<T: Scalar> State<T> {
 
     /// A field on the part with results.
     fn part<A: Clone>(&self, field: Array2<A>) -> Outcome<Array2<A>> {
-        Ok(self.original.map_or_else(|| Ok(field.clone()), |original| original.of(field.view()))?)
+        Ok(self.part.of_field(field)?)
     }
 
     /// The answer to a solve.
@@ -142,23 +131,19 @@ impl<T: Scalar> State<T> {
     }
 
     /// Solves under a load, from the last solution where there is one that fits.
-    pub fn solve(
-        &mut self,
-        asked: &Asked,
-        from_last: bool,
-        quantities: Option<Value>,
-        observe: Observe<'_>,
-    ) -> Outcome<(Value, bool)> {
-        let (shape, scene) = (self.surface.grid().shape(), self.session.scene());
-        let started = self.known().is_some_and(|gap| from_last && gap.dim() == shape && asked.nested != Some(true));
-        asked.check(&scene.adhesion, scene.method, started).map_err(reason)?;
-        let adheres = scene.adhesion.adheres();
+    pub fn solve(&mut self, case: &Case, from_last: bool, observe: Observe<'_>) -> Outcome<(Value, bool)> {
+        let shape = self.surface.grid().shape();
+        let full = self.full_pressure(&[case.load()?])?;
+        let nested = case.asked(full, false)?.nested == Some(true);
+        let started = self.known().is_some_and(|gap| from_last && gap.dim() == shape && !nested);
+        let asked = &case.asked(full, started)?;
+        let adheres = case.scene().adhesion.adheres();
         let start = self.last.take().map(|last| last.found.solution.gap).or(self.before.take()).filter(|_| started);
         if !started {
             self.session.renew()?;
         }
         let Inputs { given, initial_gap, .. } = &mut self.session.inputs;
-        (*given, *initial_gap) = (quantities, started.then(|| START.to_owned()));
+        (*given, *initial_gap) = (case.quantities().given(), started.then(|| START.to_owned()));
         let kept = start.clone().filter(|_| adheres);
         let mut solved = self.session.solve(asked, start, &mut |grid, state, tolerance| {
             observe(grid.nodes(), state, tolerance);

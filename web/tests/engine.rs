@@ -119,34 +119,12 @@ solution
 }
 
 #[test]
-fn what_is_wrong_is_refused_by_its_key_and_the_last_solution_stays() {
+fn what_is_no_value_is_refused_and_the_last_solution_stays() {
     let mut engine = rough(json!({}));
     let good = json!({ "modulus": "1GPa", "mean_pressure": "5MPa" });
     solve(&mut engine, good.clone(), true);
-    for (wrong, words) in [
-        (json!({ "mean_pressure": "5MPa" }), &["modulus is 1 by default", "give modulus with a unit"][..]),
-        (json!({ "modulus": "1GPa", "mean_pressure": 5 }), &["mean_pressure is 5", "without a unit"]),
-        (json!({ "modulus": "1GPa", "mean_pressure": "5nm" }), &["mean_pressure is 5nm", "unit of something else"]),
-        (json!({ "modulus": "-1GPa", "mean_pressure": "5MPa" }), &["modulus"]),
-        (json!({ "modulus": "1GPa", "mean_presure": "5MPa" }), &["mean_presure", "mean_pressure is"]),
-        (json!({ "modulus": "1GPa" }), &["no load", "mean_pressure"]),
-        (json!({ "modulus": "1GPa", "mean_pressure": "5MPa", "mean_gap": "1nm" }), &["several loads"]),
-        (
-            json!({ "modulus": "1GPa", "mean_pressure": "5MPa", "boundary": "fre" }),
-            &["boundary is fre", "periodic or free"],
-        ),
-        (json!({ "modulus": "1GPa", "mean_pressure": "5MPa", "law": "exponential" }), &["lacks work_of_adhesion"]),
-        (
-            json!({ "modulus": "1GPa", "mean_pressure": "5MPa", "tolerance": "small" }),
-            &["tolerance is small", "a number"],
-        ),
-        (json!({ "modulus": "1GPa", "approach": "5nm" }), &["boundary='free'"]),
-        (json!({ "modulus": "1GPa", "mean_pressure": { "value": 5 } }), &["mean_pressure is {", "a number"]),
-    ] {
-        let message = refused(&mut engine, wrong.clone());
-        assert!(words.iter().all(|word| message.contains(word)), "{wrong}: {message}");
-        assert_eq!(message.lines().count(), 1, "{message}");
-    }
+    let message = refused(&mut engine, json!({ "modulus": "1GPa", "mean_pressure": { "value": 5 } }));
+    assert!(message.starts_with("mean_pressure is {") && message.contains("a number"), "{message}");
     assert_eq!(solve(&mut engine, good, true)["started"], "last");
 }
 

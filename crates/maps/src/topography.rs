@@ -69,6 +69,8 @@ pub struct Topography {
     pub seed: Option<u64>,
     /// The threshold of the scars that were [removed](Self::remove_scars), if that was done.
     pub scars_removed: Option<f64>,
+    /// Whether opposite edges meet, if that is known.
+    pub periodic: Option<bool>,
     /// Contents of a file that were not read: arrays, channels, a mask, and lines that may tell a size.
     pub unread: Vec<String>,
 }
@@ -76,7 +78,8 @@ pub struct Topography {
 impl Topography {
     /// A map of shape (Nx, Ny) with unknown side lengths and unit.
     pub fn new(heights: Array2<f64>) -> Self {
-        Self { heights, lengths: None, unit: None, original: None, seed: None, scars_removed: None, unread: Vec::new() }
+        let (lengths, unit, original, seed, scars_removed, periodic) = (None, None, None, None, None, None);
+        Self { heights, lengths, unit, original, seed, scars_removed, periodic, unread: Vec::new() }
     }
 
     /// The number of missing heights: NaN or infinite.
@@ -143,6 +146,7 @@ impl Topography {
         self.lengths = self.lengths.map(|(lx, ly)| (share(lx, &x, nx), share(ly, &y, ny)));
         self.heights = self.heights.slice_axis(Axis(0), x.into()).slice_axis(Axis(1), y.into()).to_owned();
         self.original = None;
+        self.periodic = self.periodic.map(|_| false);
         Ok(self)
     }
 
@@ -195,6 +199,7 @@ impl Topography {
         for (mut row, wx) in self.heights.rows_mut().into_iter().zip(&along_x) {
             row.iter_mut().zip(&along_y).for_each(|(h, wy)| *h = mean + wx * wy * (*h - level));
         }
+        self.periodic = self.periodic.map(|_| true);
         Ok(self)
     }
 
@@ -211,6 +216,7 @@ impl Topography {
         let (mx, my) = heights.dim();
         self.lengths = self.lengths.map(|(lx, ly)| (lx * (mx / nx) as f64, ly * (my / ny) as f64));
         self.heights = heights;
+        self.periodic = self.periodic.map(|_| true);
         // an original is forgotten where the map is not whole images of it, as after resampling
         self.original = self.original.filter(|&(x, y)| nx % x == 0 && ny % y == 0).or(Some((nx, ny)));
         self

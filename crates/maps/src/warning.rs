@@ -25,6 +25,9 @@ use heights::{cells, ends_at_edges, ends_within, missing_code, open_edges, slope
 use part::Part::{self, Figure, Length, Pressure, Word};
 use relief::Relief;
 
+/// The largest number of names in a message.
+const MOST_NAMES: usize = 10;
+
 /// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
@@ -223,6 +226,39 @@ impl Warning {
             found.extend(at_edges.chain(spikes(&relief)).chain(lines::offsets(&relief.heights, relief.unit)));
         }
         found
+    }
+
+    /// What the file or the object of a map leaves open: its side lengths ([`Sides`](WarningCode::Sides)), where none are
+    /// known and something next to the heights may give them; a mask ([`Mask`](WarningCode::Mask)); and whether opposite
+    /// edges meet ([`NotPeriodic`](WarningCode::NotPeriodic)).
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// use asperity_maps::Topography;
+    /// let mut map = Topography::new(ndarray::Array2::zeros((4, 4)));
+    /// map.unread = vec!["sides".to_owned()];
+    /// map.periodic = Some(false);
+    /// let codes: Vec<_> = Warning::of_source(&map).iter().map(|warning| warning.code.name()).collect();
+    /// assert_eq!(codes, ["sides", "not-periodic"]);
+    /// ```
+    pub fn of_source(map: &Topography) -> Vec<Self> {
+        let named = |names: &[String]| names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+        let (first, more) = map.unread.split_at(map.unread.len().min(MOST_NAMES));
+        let more = if more.is_empty() { "" } else { ", ..." };
+        let sides = (map.lengths.is_none() && !first.is_empty()).then(|| {
+            let text = "the side lengths are unknown, but the file has {}: give lengths";
+            Self::new(WarningCode::Sides, 0.0, text, [Word(named(first) + more)])
+        });
+        let mask = map.unread.iter().find(|name| name.starts_with("a mask")).map(|mask| {
+            let mask = mask.split(',').next().unwrap_or_default().to_owned();
+            let text = "the file has {}, which count as measured: read them as missing if they are";
+            Self::new(WarningCode::Mask, 0.0, text, [Word(mask)])
+        });
+        let open = (map.periodic == Some(false)).then(|| {
+            let text = "the map is not periodic, but is solved as if it were: mirror or window it";
+            Self::new(WarningCode::NotPeriodic, 0.0, text, [])
+        });
+        [sides, mask, open].into_iter().flatten().collect()
     }
 
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*

@@ -43,9 +43,9 @@ pub use self::asked::{Asked, NestedKeys, PathKeys};
 pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
 pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
-pub use self::given::{Given, Measured, Quantities, Typed};
+pub use self::given::{Given, Measured, Quantities, Taken, Typed};
 pub use self::keywords::KEYWORDS;
-pub use self::kind::{Kind, Values, Word};
+pub use self::kind::{Form, Kind, Values, Word};
 pub use self::laws::{LAWS, Law, tabulated};
 pub use self::leak::{LeakAsked, LeakKeys};
 pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
@@ -88,6 +88,9 @@ pub struct Key {
 pub trait Keys {
     /// The keys, in the order of the help.
     const KEYS: &'static [Key];
+
+    /// What was given for them.
+    fn of(given: &Given) -> Self;
 }
 
 /// A list of keys, or several in the order of the help.

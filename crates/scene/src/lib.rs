@@ -4,6 +4,7 @@
 //! This crate is internal to asperity, and its interface may change in any version.
 
 mod account;
+mod case;
 mod clock;
 mod hash;
 mod key;
@@ -15,11 +16,12 @@ mod table;
 pub use asperity_maps::numbers;
 
 pub use account::*;
+pub use case::{Case, Map, Maps, Objects, Part, Posed, complete, sided};
 pub use hash::Hash;
 pub use key::*;
 pub use session::limit::CycleLimit;
 pub use session::way::Way;
-pub use session::{AnySession, Input, Next, Observe, Session, Solved, TableFile};
+pub use session::{AnySession, Next, Observe, Session, Solved, TableFile};
 pub use session::{fall, pace};
 pub use table::Format;
 pub use table::fields::{gap_to_write, write_fields};

@@ -12,8 +12,7 @@ pub(crate) mod way;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Weak};
 
-use asperity::adhesion::Formula;
-use asperity::contact::{ContactStatistics, Original, Region};
+use asperity::contact::{ContactStatistics, Region};
 use asperity::solver::Iteration;
 use asperity::{AdhesionLaw, Grid, PullOff, Real, Result, Solver, Status, Surface};
 use asperity_maps::warning::WarningCode;
@@ -24,7 +23,8 @@ pub use self::filled::{Next, TableFile};
 use crate::Either;
 use crate::account::row::Kind;
 use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
-use crate::key::{After, Asked, Constraint, Goal, Scalar, Scene, Skin, Told, Units, worded};
+use crate::case::{Part, Posed};
+use crate::key::{After, Asked, Constraint, Goal, Precision, Scalar, Scene, Skin, Told, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
@@ -36,26 +36,6 @@ use crate::table::{Format, Table};
 /// solve.
 pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
 
-/// The input of a session besides its scene.
-pub struct Input {
-    /// The surface; of several processes each has its rows.
-    pub surface: Arc<Surface>,
-    /// The law of adhesion.
-    pub formula: Formula,
-    /// The hardness at all nodes, where it varies.
-    pub hardness: Option<Array2<f64>>,
-    /// The original of a mirrored surface, if results are of it.
-    pub original: Option<Original>,
-    /// The unit of the file of the heights, if they were converted from it.
-    pub converted_from: Option<String>,
-    /// The threshold of the scars that were removed from the heights.
-    pub scars_removed: Option<f64>,
-    /// Whether warnings are errors.
-    pub is_strict: bool,
-    /// The words of errors.
-    pub skin: Skin,
-}
-
 /// The session of a contact problem in one precision: the problem with its solver, the inputs of its reports, its
 /// warnings, and the table that is filled.
 pub struct Session<T: Scalar> {
@@ -65,18 +45,11 @@ pub struct Session<T: Scalar> {
     pub seed: Option<u64>,
     /// The warnings so far.
     pub warnings: Warnings,
-    scene: Scene,
+    facts: Facts,
     surface: Weak<Surface>,
     body: Body<T>,
     law: Arc<dyn AdhesionLaw<T>>,
-    strongest: Option<(usize, usize)>,
-    hardness: Option<Array2<f64>>,
     solver: Solver<Constraint<T>>,
-    original: Option<Original>,
-    units: Units,
-    scars_removed: Option<f64>,
-    skin: Skin,
-    processes: Processes,
     /// The grid of the surface.
     grid: Grid,
     /// Whether no solve follows the next one.
@@ -85,6 +58,20 @@ pub struct Session<T: Scalar> {
     table: Option<Table>,
     /// The cycle on the coarser grid that tells the limit
     coarser: Option<Box<Self>>,
+}
+
+/// What all solves of a session have in common besides the problem.
+#[derive(Clone)]
+struct Facts {
+    scene: Scene,
+    part: Part,
+    units: Units,
+    /// The node with the largest work of adhesion, where that varies.
+    strongest: Option<(usize, usize)>,
+    hardness: Option<Array2<f64>>,
+    scars_removed: Option<f64>,
+    skin: Skin,
+    processes: Processes,
 }
 
 /// A solution with its account.
@@ -98,6 +85,20 @@ pub struct Solved<T: Real> {
 /// A session in either precision.
 pub type AnySession = Either<Session<f32>, Session<f64>>;
 
+impl AnySession {
+    /// The session of a case on its maps in the precision of its scene, with the slopes of the surface; see
+    /// [`Session::new`].
+    ///
+    /// # Errors
+    /// Those of [`Session::new`].
+    pub fn of(posed: Posed, processes: &Processes) -> Outcome<Self> {
+        Ok(match posed.scene.precision {
+            Precision::F32 => Self::F32(Session::new(posed, false, processes)?.with_slopes()?),
+            Precision::F64 => Self::F64(Session::new(posed, false, processes)?.with_slopes()?),
+        })
+    }
+}
+
 impl<T: Real> Solved<T> {
     /// Looks at the fields: fills in the keys of the account that are found of them.
     ///
@@ -109,17 +110,18 @@ impl<T: Real> Solved<T> {
 }
 
 impl<T: Scalar> Session<T> {
-    /// The session of a scene on a surface, with the inputs of its reports in units, on processes.
+    /// The session of a case on its maps, on processes; warnings are errors if it `is_strict`.
     ///
     /// # Errors
-    /// Those of [`Adhesion::constraint`](crate::Adhesion::constraint), and warnings, if they are errors.
-    pub fn new(scene: &Scene, input: Input, inputs: Inputs, units: Units, processes: &Processes) -> Outcome<Self> {
-        let Input { surface, formula, hardness, original, converted_from, scars_removed, is_strict, skin } = input;
+    /// Those of the wall and the hardness, and warnings, if they are errors.
+    pub fn new(posed: Posed, is_strict: bool, processes: &Processes) -> Outcome<Self> {
+        let Posed { surface, part, units, inputs, seed, scene, skin, formula, hardness, converted_from, .. } = posed;
         let (grid, strongest, law) = (*surface.grid(), formula.strongest(), T::law(formula));
         let warn = || match is_whole(&grid) {
             true => {
                 let surface = (&*surface.whole(), converted_from.as_deref());
-                Warnings::new(warnings_of_input(surface, &scene.elastic, &*law, &units), is_strict)
+                let found = warnings_of_input(surface, &scene.elastic, &*law, &units);
+                Warnings::new(posed.doubts.iter().map(|doubt| units.told(doubt)).chain(found).collect(), is_strict)
             }
             false if is_strict => Err("--strict has no form for several processes and more than 4096 x 4096 nodes: \
                                        leave it out"
@@ -129,31 +131,11 @@ impl<T: Scalar> Session<T> {
         let warnings = processes.agree(warn())?;
         let constraint = scene.adhesion.constraint(hardness.as_ref().map(|hardness| hardness.view()))?;
         let solver = Solver { settings: scene.settings(), constraint };
-        let (scene, processes) = (scene.clone(), processes.clone());
+        let (processes, scars_removed) = (processes.clone(), posed.scars_removed);
+        let facts = Facts { scene, part, units, strongest, hardness, scars_removed, skin, processes };
         let (surface, body) = (Arc::downgrade(&surface), Body::Surface(surface));
-        let (seed, course, table, last) = (None, None, None, false);
-        Ok(Self {
-            inputs,
-            warnings,
-            scene,
-            surface,
-            body,
-            law,
-            strongest,
-            hardness,
-            solver,
-            original,
-            units,
-            scars_removed,
-            seed,
-            skin,
-            processes,
-            grid,
-            last,
-            course,
-            table,
-            coarser: None,
-        })
+        let (last, course, table, coarser) = (false, None, None, None);
+        Ok(Self { inputs, seed, warnings, facts, surface, body, law, solver, grid, last, course, table, coarser })
     }
 
     /// The session with the slopes of its surface among the inputs, where a process has all of it.
@@ -162,7 +144,7 @@ impl<T: Scalar> Session<T> {
     /// [`Error::Unsuited`](asperity::Error::Unsuited) after the first solve.
     pub fn with_slopes(mut self) -> Result<Self> {
         if is_whole(&self.grid) {
-            self.inputs.slopes = Slopes::on(&*self.surface()?, self.scene.elastic.boundary);
+            self.inputs.slopes = Slopes::on(&*self.surface()?, self.facts.scene.elastic.boundary);
         }
         Ok(self)
     }
@@ -178,20 +160,25 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// [`Error::Unsuited`](asperity::Error::Unsuited) where nothing does.
     pub fn renew(&mut self) -> Result<()> {
-        let hardness = self.hardness.as_ref().map(|hardness| hardness.view());
-        self.solver.constraint = self.scene.adhesion.constraint(hardness)?;
+        let hardness = self.facts.hardness.as_ref().map(|hardness| hardness.view());
+        self.solver.constraint = self.facts.scene.adhesion.constraint(hardness)?;
         (self.body, self.course, self.table) = (Body::Surface(self.surface()?), None, None);
         Ok(())
     }
 
+    /// The grid of the surface.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
     /// The scene.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        &self.facts.scene
     }
 
     /// The units of its numbers, as far as they are known.
     pub fn units(&self) -> &Units {
-        &self.units
+        &self.facts.units
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it, and its
@@ -240,12 +227,12 @@ impl<T: Scalar> Session<T> {
             None if found.search.is_some() => Kind::Search,
             None => Kind::Sweep,
         };
-        let names = kind.columns(after, &self.scene.adhesion);
+        let names = kind.columns(after, &self.facts.scene.adhesion);
         let mut cells = Row::of(found, account, &sizes, None, self.seed).cells(&names);
         for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
             cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
         }
-        let header = self.units.columns(&names, account.control, self.grid.is_line());
+        let header = self.facts.units.columns(&names, account.control, self.grid.is_line());
         Ok(format.header(&header) + &format.line(&cells) + "\n")
     }
 
@@ -258,8 +245,8 @@ impl<T: Scalar> Session<T> {
             self.worded(check_finite(&found.solution))?;
         }
         let warnings = self.look(&found);
-        let warnings = self.processes.agree(warnings)?;
-        let account = found.account(command, &self.inputs, self.strongest, warnings)?;
+        let warnings = self.facts.processes.agree(warnings)?;
+        let account = found.account(command, &self.inputs, self.facts.strongest, warnings)?;
         Ok(Solved { found, account })
     }
 
@@ -267,7 +254,7 @@ impl<T: Scalar> Session<T> {
     fn look(&mut self, found: &Found<T>) -> Outcome<Vec<Told>> {
         let mut new = Vec::new();
         if is_whole(&self.grid) {
-            let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.scars_removed));
+            let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.facts.scars_removed));
             new = warnings_of(&*solution, found.sight.original, of_input)?;
             // a cycle goes from afar to afar, where the force is a small part of that in contact
             let is_apart = || solution.regions().iter().all(|region| matches!(region, Region::Apart | Region::Absent));
@@ -275,12 +262,12 @@ impl<T: Scalar> Session<T> {
                 new.retain(|warning| warning.code != WarningCode::WindowEdge);
             }
         }
-        self.warnings.add(new.iter().map(|warning| self.units.told(warning)).collect())
+        self.warnings.add(new.iter().map(|warning| self.facts.units.told(warning)).collect())
     }
 
     /// A result with a reason that has keys in braces.
     fn worded<V>(&self, result: std::result::Result<V, String>) -> Outcome<V> {
-        Ok(result.map_err(|reason| worded(&reason, self.skin))?)
+        Ok(result.map_err(|reason| worded(&reason, self.facts.skin))?)
     }
 }
 

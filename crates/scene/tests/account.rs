@@ -12,11 +12,13 @@ use asperity_scene::processes::Processes;
 use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, After, Asked, Boundary, Elastic, Found, Goal, GridErrors, GridLevel, Input, Inputs, Number,
-    OtherBranch, Precision, Reached, Row, Scene, Search, Session, Skin, Slopes, Solved, Steadiness, TableFile, Way,
-    check_finite, rows, shortfalls, worded,
+    Account, Adhesion, AdhesionKeys, After, Asked, Boundary, Case, Elastic, Found, Given, Goal, GridErrors, GridLevel,
+    Inputs, Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Reached, Row, Scene, Search, Session, Skin,
+    Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows, shortfalls,
+    without_files, worded,
 };
 use ndarray::Array2;
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 fn keys(value: &Value) -> Vec<&str> {
@@ -43,18 +45,15 @@ fn posed_by(scene: &Scene) -> Session<f64> {
 }
 
 fn session(scene: &Scene, surface: Surface, is_strict: bool) -> Outcome<Session<f64>> {
-    let inputs = scene.inputs((0, 0), (0.0, 0.0), 1);
-    let input = Input {
-        surface: surface.into(),
-        formula: scene.adhesion.formula(None)?,
-        hardness: None,
-        original: None,
-        converted_from: None,
-        scars_removed: None,
-        is_strict,
-        skin: Skin::Keywords,
-    };
-    Session::new(scene, input, inputs, Units::default(), &Processes::start()?)
+    let keys: Vec<_> = without_files::<(SurfaceKeys, AdhesionKeys, SolverKeys)>().collect();
+    let known = |name: &str| keys.iter().any(|key| key.name == name);
+    let Value::Object(all) = json!(scene) else { unreachable!() };
+    let typed = all.into_iter().filter(|(name, value)| known(name) && !value.is_null());
+    let typed: Vec<_> = typed.map(|(name, value)| (name, Typed::deserialize(value).unwrap())).collect();
+    let given = Given::read(&keys, typed)?;
+    let case = Case::of(given, Quantities::default(), Objects::default(), Skin::Keywords)?;
+    let (map, processes) = (Map::whole(None, surface.into()), Processes::start()?);
+    Session::new(case.on(Maps::of(map), 1, &processes)?, is_strict, &processes)
 }
 
 fn solved(asked: &Asked) -> Solved<f64> {

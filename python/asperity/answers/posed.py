@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .. import _asperity
 from ..bodies.body import symbol
 from ..common.warnings import AccuracyWarning, ConvergenceWarning, warn, warn_input
-from ..maps.arrays import mirror_field, read_field
+from ..maps.arrays import read_field
 from ..maps.topography import Topography, refine
 from .solution import Solution, Start
 
@@ -64,7 +64,7 @@ class Posed:
     _is_si: bool
     _is_kept: bool
     _given: _asperity.Keywords
-    _facing: tuple[str, tuple[float, float]] | None
+    _facing: str | None
     _hardness: NDArray[np.float64] | None
     _posed: _asperity.Problem | None
     _warned: set[str]
@@ -95,16 +95,18 @@ class Posed:
             self._posed = self._problem(self.topography, self._given, self._is_kept)
         return self._posed
 
-    def _problem(self, topography: Topography, given: _asperity.Keywords, is_kept: bool) -> _asperity.Problem:
+    def _problem(
+        self, topography: Topography, given: _asperity.Keywords, is_kept: bool, against: Topography | None = None
+    ) -> _asperity.Problem:
         """The problem of a map, as the compiled core has it."""
-        return _asperity.Problem(topography, self._facing, self._hardness, given, symbol(self.body), is_kept)
+        other, own = (against, self._facing), symbol(self.body)
+        return _asperity.Problem(topography, other, self._hardness, given, own, is_kept)
 
     def _start(self, start: Start) -> str | NDArray[np.float64] | None:
         """The gap from which to start, as the compiled core takes it."""
         if start is None or isinstance(start, str):
             return start
-        gap = read_field(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
-        return mirror_field(gap, self.topography.heights.shape) if gap.shape == self.topography.original else gap
+        return read_field(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
 
     def _relaxed(
         self, heights: NDArray[np.float64], share: float, load: dict[str, Any], start: Start, observe: Any

@@ -41,13 +41,12 @@ from ..common.types import (
     WallName,
 )
 from ..common.units import shown
-from ..common.warnings import ConvergenceWarning, InputWarning, warn
+from ..common.warnings import ConvergenceWarning, warn
 from ..common.words import suggests
 from ..laws.composite import Varying
 from ..maps.arrays import read_field
-from ..maps.heights import Heights, convert_heights, read_axes
-from ..maps.pair import combine, shift_pair
-from ..maps.topography import Topography, require_lengths
+from ..maps.heights import Heights, knows_axes, read_axes, read_heights
+from ..maps.topography import Topography
 from ..relaxation.viscoelastic import Viscoelastic
 from .keywords import OF_LAWS, pick, refuse_both, replace_spring, split_springs
 
@@ -181,26 +180,14 @@ class Contact(Posed):
         if lengths is not None:
             keys["lengths"] = lengths
         self._keys, self._is_si, self._given = keys, is_si, _asperity.Keywords(keys, law, is_si)
-        si = self._given.is_si
-        self.pressure_unit = "Pa" if si else None
-        self.topography = convert_heights(heights, self._given.numbers("lengths"), axes, is_si=si)
-        boundary, absent_missing = keys.get("boundary", "periodic"), bool(keys.get("absent_missing", False))
-        facing, shift = None, self._given.numbers("shift")
-        if against is not None:
-            moved = shift_pair(shift)
-            self.topography, name = combine(
-                self.topography, against, moved, axes=axes, boundary=boundary, absent_missing=absent_missing, si=si
-            )
-            facing = (name, moved)
-        elif shift is not None:
-            raise ValueError(
-                f"shift is {keys['shift']!r}, but there is no surface on the other side: give against, or leave it out"
-            )
-        # refused where they are unknown
-        require_lengths(self.topography)
-        self._facing, self._is_kept = facing, is_kept
+        self.pressure_unit = "Pa" if self._given.is_si else None
+        self._facing, self._is_kept = None, is_kept
         self._hardness = None if hardness is None else read_field(hardness, "hardness", order).copy()
-        self._posed = self._problem(self.topography, self._given, is_kept)
+        given = read_heights(heights, axes)
+        other = None if against is None else read_heights(against, None if knows_axes(against) else axes)
+        self._posed = self._problem(given, self._given, is_kept, other)
+        self.topography = replace(given, **self._posed.posed)
+        self._facing = self._posed.facing
         self.turns = Turns()
         if not isinstance(heights, Topography | str | os.PathLike) and against is None:
             # the array may change before the heights are asked for
@@ -209,12 +196,6 @@ class Contact(Posed):
         moduli = [self._given.numbers(key) for key in ("modulus", "against_modulus")]
         self.modulus = 1 / sum(1 / modulus[0] for modulus in moduli if modulus is not None)
         self._warned = set()
-        if self.topography.periodic is False and boundary == "periodic":
-            warn(
-                "the map is not periodic, but the solve treats it as periodic: use asperity.prepare(heights, "
-                "mirror=True) or window=0.1, or boundary='free' if the body ends there",
-                InputWarning,
-            )
 
     def __repr__(self) -> str:
         given = {**self._keys, "law": self.law, "body": None if isinstance(self.body, Measured) else self.body}

@@ -22,7 +22,7 @@ class Measured:
                 value = _asperity.quantity(key, value)
             object.__setattr__(self, name, number(name, value))
         object.__setattr__(self, "_texts", texts)
-        _asperity.Keywords({**self.keys, "modulus": 0.0}, None)
+        _asperity.in_si(list(self.keys.items()))
 
     @property
     def keys(self) -> dict[str, Any]:

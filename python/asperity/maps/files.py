@@ -68,4 +68,4 @@ def read(
     except ValueError as refused:
         return instruments.read(source, channel, refused)
     log = (f"also in the file: {', '.join(beside)}".replace("--masked", "masked=True"),) if beside else ()
-    return Topography(**made, source=source, log=log)
+    return Topography(**made, source=source, log=log, _unread=tuple(beside))

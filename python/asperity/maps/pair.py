@@ -1,39 +1,13 @@
-"""Two bodies: the surface between them, and their contact modulus."""
+"""Two bodies: their contact modulus."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import overload
 
 from .. import _asperity
-from ..common.types import AxisOrder, Boundary, Quantity
+from ..common.types import Quantity
 from ..common.units import in_si, number
 from ..common.words import suggests
-from .heights import Heights, convert_heights, knows_axes
-from .topography import Topography
-
-
-def shift_pair(shift: list[float] | None) -> tuple[float, float]:
-    """A shift along both axes."""
-    both = shift or [0.0]
-    return (both[0], both[1] if len(both) == 2 else 0.0)
-
-
-def combine(
-    first: Topography,
-    against: Heights,
-    shift: tuple[float, float],
-    *,
-    axes: AxisOrder | None,
-    boundary: Boundary,
-    absent_missing: bool,
-    si: bool,
-) -> tuple[Topography, str]:
-    """The map between two surfaces that face each other, and the name of the second one in reports."""
-    other = convert_heights(against, None, None if knows_axes(against) else axes, si)
-    heights = _asperity.between(first, other, shift, boundary, absent_missing)
-    periodic = False if other.periodic is False else first.periodic
-    return replace(first, heights=heights, periodic=periodic), other.source or "array"
 
 
 @overload

@@ -156,6 +156,5 @@ def prepare(
     made, log, warnings = _asperity.prepare(given, both, cut_off, is_si, plain(keys))
     for warning in warnings:
         warn_input(warning)
-    periodic = True if mirror or window else given.periodic
     is_line = given._is_line and made["heights"].shape[1] == 1
-    return replace(given, **made, periodic=periodic, log=(*given.log, *log), _is_line=is_line)
+    return replace(given, **made, log=(*given.log, *log), _unread=(), _is_line=is_line)

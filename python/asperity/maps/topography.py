@@ -61,6 +61,7 @@ class Topography:
     seed: int | None = None
     log: tuple[str, ...] = ()
     scars_removed: float | None = None
+    _unread: tuple[str, ...] = ()
     _is_line: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:

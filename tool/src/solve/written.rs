@@ -57,7 +57,7 @@ impl Job<'_> {
         let meet = self.part.sides_meet(whole);
         pictures::draw_contact(shown, "Contact", units, &regions, colours.clusters(meet), size.paper())?
             .write(contact_name)?;
-        let pressure = pictures::pressure_to_draw(solution, self.problem.scene.adhesion.adheres());
+        let pressure = pictures::pressure_to_draw(solution, self.problem.case.scene().adhesion.adheres());
         let picture =
             pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, colours.limits(), size.paper())?;
         picture.write(pressure_name)?;

@@ -15,7 +15,7 @@ use crate::output::write_text;
 use crate::printing::{Warn, in_options};
 use crate::processes::Processes;
 use crate::scene::SceneFile;
-use crate::session::{Strictness, session};
+use crate::session::Strictness;
 
 /// A case to solve, by a command.
 pub struct Run<'a> {
@@ -35,28 +35,27 @@ impl Run<'_> {
     /// Solves the case, with heights that were `made`, if they were, and tells its warnings.
     pub fn solve(&self, made: Option<Topography>, warn: Warn<'_>) -> Outcome<()> {
         let Self { problem, scene, processes, .. } = self;
-        problem.check_table()?;
-        let loads = in_options(match self.command {
-            "solve" => problem.given.load().map(|load| vec![load]),
-            "pull-off" => Ok(Vec::new()),
-            _ => problem.given.loads(),
-        })?;
-        problem.check_loads(&loads)?;
-        let after = in_options(problem.given.after())?;
+        let case = &problem.case;
+        case.check_table()?;
+        let loads = match self.command {
+            "solve" => vec![case.load()?],
+            "pull-off" => Vec::new(),
+            _ => case.loads()?,
+        };
+        let after = case.after(false)?;
         problem.check_after(&after, processes)?;
-        let given = problem.with(made, scene.is_si(), processes, warn)?;
-        match problem.scene.precision {
+        let given = problem.with(made, scene, processes)?;
+        match case.scene().precision {
             Precision::F32 => self.rows::<f32>(given, &loads, after, warn),
             Precision::F64 => self.rows::<f64>(given, &loads, after, warn),
         }
     }
 
-    fn rows<T: Scalar>(&self, mut given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
-        let Self { problem, scene, out, .. } = self;
-        let full = problem.full_pressure(&given.surface, loads)?;
-        let (start, law_table) = (given.start.take(), given.adhesion.table.take());
-        let works = given.adhesion.works.take();
-        let mut session = session::<T>(problem, given, scene, self.strictness, self.processes)?;
+    fn rows<T: Scalar>(&self, given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
+        let Self { problem, out, .. } = self;
+        let Problem { posed, table: law_table, works } = given;
+        let mut session = self.strictness.session::<T>(posed, self.processes)?;
+        let (full, start) = (session.full_pressure(loads)?, problem.start(&mut session, self.processes)?);
         // rows that have not converged are counted in the table
         let mut tell = |warnings: &mut Warnings, row: usize, account: Option<&Account>| {
             warnings.tell().iter().for_each(|told| warn(told.to_string()));
@@ -65,7 +64,7 @@ impl Run<'_> {
         };
         if let "sweep" | "cycle" = self.command {
             let way = match self.command {
-                "cycle" => Way::cycle(loads, full, problem.given.path())?,
+                "cycle" => Way::cycle(loads, full, problem.case.given().path())?,
                 _ => Way::sweep(loads, full),
             };
             let (out, format, force) = (out.clone(), Some(self.format), self.force);
@@ -82,13 +81,13 @@ impl Run<'_> {
         let (mut session, start) = (session.for_one_solve(), start.map(T::field));
         let mut observe = |_: &Grid, _: &Iteration, _: f64| ControlFlow::Continue(());
         let (mut solved, pulled_off) = match loads.first() {
-            Some(&load) => {
-                let asked = in_options(problem.given.asked(load, full))?;
-                in_options(asked.check(&problem.scene.adhesion, problem.scene.method, start.is_some()))?;
+            Some(_) => {
+                let asked = problem.case.asked(full, start.is_some())?;
                 (session.solve(&asked, start, &mut observe)?, None)
             }
             None => {
-                let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
+                let given = problem.case.given();
+                let (asked, goal) = (given.pull_off(), in_options(given.goal())?);
                 let (last, found) = session.pull_off(asked, goal, start, &mut observe)?;
                 (last, Some(found))
             }

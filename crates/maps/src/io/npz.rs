@@ -24,7 +24,7 @@ const MAX_COMPRESSION: u64 = 1032;
 const ENTRY: usize = 1024;
 
 /// The arrays that an archive of a map may have.
-const ARRAYS: [&str; 7] = ["heights", "lengths", "unit", "units", "original", "seed", "scars_removed"];
+const ARRAYS: [&str; 8] = ["heights", "lengths", "unit", "units", "original", "seed", "scars_removed", "periodic"];
 
 /// Reads the array `heights`, or the only one, of an archive of `size` bytes; and the other arrays of a map.
 pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topography> {
@@ -82,6 +82,13 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
         match threshold.as_slice() {
             Some(&[threshold]) if threshold > 0.0 && threshold.is_finite() => map.scars_removed = Some(threshold),
             _ => return refuse("has an array scars_removed that is not a positive number: leave the array out"),
+        }
+    }
+    if let Some(index) = archive.index_for_name("periodic.npy") {
+        let periodic = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+        match periodic.as_slice() {
+            Some(&[is @ (0.0 | 1.0)]) => map.periodic = Some(is > 0.0),
+            _ => return refuse("has an array periodic that is neither 0 nor 1: leave the array out"),
         }
     }
     let unread = archive.file_names().map(array).filter(|name| !ARRAYS.contains(name));
@@ -165,7 +172,8 @@ pub fn map_as_npz(map: &Topography) -> Result<Vec<u8>> {
     let heights = [("heights", map.heights.view())];
     let seed = map.seed.map(|seed| seed.to_string());
     let &Topography { lengths, original, scars_removed, .. } = map;
-    let known = Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref(), scars_removed };
+    let is_open = map.periodic == Some(false);
+    let known = Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref(), scars_removed, is_open };
     archive(&heights, &known).map_err(|e| Error::unwritable("heights.npz", e))
 }
 
@@ -177,6 +185,7 @@ struct Known<'a> {
     original: Option<(usize, usize)>,
     seed: Option<&'a str>,
     scars_removed: Option<f64>,
+    is_open: bool,
 }
 
 /// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so
@@ -210,6 +219,9 @@ fn archive<T: Real>(fields: &[(&str, ArrayView2<'_, T>)], known: &Known<'_>) -> 
     }
     if let Some(threshold) = known.scars_removed {
         add("scars_removed", numbers("<f8", &[threshold.to_le_bytes()]))?;
+    }
+    if known.is_open {
+        add("periodic", numbers("<f8", &[0f64.to_le_bytes()]))?;
     }
     Ok(npz.finish()?.into_inner())
 }

@@ -53,6 +53,12 @@ codes! {
     Axes = "axes",
     /// The numbers have magnitudes of bytes in the wrong order.
     ByteOrder = "byte-order",
+    /// Nothing says how large the map is, but its file has something that may.
+    Sides = "sides",
+    /// The file has a mask, which was not taken.
+    Mask = "mask",
+    /// The map is known not to be periodic, and is solved as if it were.
+    NotPeriodic = "not-periodic",
     /// The cells of the grid are far from square.
     Cells = "cells",
     /// The range of adhesion exceeds the heights, or is too short for the grid.

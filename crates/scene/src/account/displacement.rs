@@ -13,7 +13,7 @@ impl<T: Real> Sight<T> {
     /// have no mean but the mean of a body with a known mean compliance. Several processes may share a periodic grid.
     ///
     /// # Errors
-    /// As [`Elastic::operator`] and [`Elastic::body`].
+    /// Those of the body and the operator.
     pub fn displacements(&self, elastic: &Elastic, pressure: ArrayView2<'_, T>) -> Result<Option<[Array2<f64>; 2]>> {
         let Some(other) = elastic.other() else { return Ok(None) };
         Ok(Some([self.displacement(&elastic.alone(), pressure)?, self.displacement(&other, pressure)?]))
@@ -23,7 +23,7 @@ impl<T: Real> Sight<T> {
     /// which is zero: without absent nodes it is the same. With them one process has to have all of a periodic grid.
     ///
     /// # Errors
-    /// As [`Elastic::operator`].
+    /// Those of the operator.
     pub(crate) fn facing_displacement(&self, elastic: &Elastic, solution: &Solution<T>) -> Result<f64> {
         if solution.report.absent_nodes == 0 {
             return Ok(0.0);

@@ -17,12 +17,12 @@ keys! {
             /// Relative error to reach, such as 0.01: chooses the tolerance, solves on coarser grids too, and
             /// interpolates the surface on finer ones until the estimated error is small enough; the results are on the
             /// finest grid
-            accuracy: Kind::number(Range::POSITIVE, &["A"])
+            accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"])
                 .excludes(&["initial_gap", "nested", "no_nested", "stability", "leave"]),
             /// Quantity that has the accuracy [default: area]
-            accuracy_of: Kind::word(quantities, &["QUANTITY"]).needs(&["accuracy"]),
+            accuracy_of: Option<String> = Kind::word(quantities, &["QUANTITY"]).needs(&["accuracy"]),
             /// Memory that {accuracy} may take, in GiB [default: all that is free]
-            memory: Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
+            memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
     }
 }
@@ -33,16 +33,16 @@ keys! {
         "Load" {
             /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed
             /// flat, unless {branch} or {initial_gap} says otherwise
-            preload: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
+            preload: Option<f64> = Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
             /// Relative tolerance of the pull-off
-            rtol: Kind::number(Range::SHARE, &["T"]).or("0.02"),
+            rtol: Option<f64> = Kind::number(Range::SHARE, &["T"]).or("0.02"),
         }
         "Solver" {
             /// Relative error of the pull-off to reach, such as 0.05, with the law jkr: interpolates the surface on
             /// finer grids until the estimated error is small enough
-            accuracy: Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
+            accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
             /// Memory that {accuracy} may take, in GiB [default: all that is free]
-            memory: Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
+            memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
     }
 }
@@ -76,10 +76,11 @@ impl Given {
     /// # Errors
     /// A quantity or a memory without an accuracy, and a memory that is none, for [`worded`](crate::worded).
     pub fn goal(&self) -> Result<Option<Goal>, String> {
-        let (of, memory) = (self.word("accuracy_of").unwrap_or("area"), self.number("memory"));
-        let of = Quantity::ALL.into_iter().find(|quantity| quantity.name() == of).unwrap_or(Quantity::Area);
-        match (self.number("accuracy"), memory) {
-            (None, _) if memory.is_some() || self.has("accuracy_of") => {
+        let AccuracyKeys { accuracy, accuracy_of, memory } = self.keys();
+        let named = |name: &str| Quantity::ALL.into_iter().find(|quantity| quantity.name() == name);
+        let of = accuracy_of.as_deref().and_then(named).unwrap_or(Quantity::Area);
+        match (accuracy, memory) {
+            (None, _) if memory.is_some() || accuracy_of.is_some() => {
                 Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, such as 0.01 for 1 %".to_owned())
             }
             (_, Some(memory)) if memory <= 0.0 || memory.is_nan() => {
@@ -92,7 +93,8 @@ impl Given {
     /// The search for a pull-off.
     pub fn pull_off(&self) -> PullOff {
         let usual = PullOff::default();
-        usual.tolerance(self.number("rtol").unwrap_or(usual.tolerance)).preload(self.number("preload"))
+        let PullOffKeys { rtol, preload, .. } = self.keys();
+        usual.tolerance(rtol.unwrap_or(usual.tolerance)).preload(preload)
     }
 }
 

@@ -1,7 +1,9 @@
 //! The adhesion between the surfaces, as options, keywords and reports describe it.
 
+use std::path::PathBuf;
+
 use asperity::adhesion::Formula;
-use asperity::{AdhesionLaw, Hardness, MaugisDugdale, Real, Result, Tabulated};
+use asperity::{AdhesionLaw, Error, Hardness, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -17,33 +19,33 @@ keys! {
     AdhesionKeys {
         "Adhesion" {
             /// Adhesion law, over the gap g; asperity laws lists the parameters and the source of each
-            law: Kind::word(laws, &["LAW"]).or("none"),
+            law: Option<String> = Kind::word(laws, &["LAW"]).or("none"),
             /// Work of adhesion, an energy per area; all that jkr needs
-            work_of_adhesion: Kind::quantity(ENERGY_PER_AREA, Range::NON_NEGATIVE, &["W"]),
+            work_of_adhesion: Option<f64> = Kind::quantity(ENERGY_PER_AREA, Range::NON_NEGATIVE, &["W"]),
             /// Range of adhesion, a length; for lennard-jones and van-der-waals the distance of the surfaces in contact
-            range: Kind::quantity(LENGTH, Range::POSITIVE, &["RHO"]),
+            range: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["RHO"]),
             /// Exponent of the energy of a power law
-            exponent: Kind::number(Range::POSITIVE, &["N"]),
+            exponent: Option<f64> = Kind::number(Range::POSITIVE, &["N"]),
             /// Hamaker's constant of van-der-waals, an energy
-            hamaker: Kind::quantity(ENERGY, Range::POSITIVE, &["A"]),
+            hamaker: Option<f64> = Kind::quantity(ENERGY, Range::POSITIVE, &["A"]),
             /// Table of a law: lines of a gap, rising from 0, and a traction, attraction positive, the last one 0
-            law_table: Kind::file(),
+            law_table: Option<PathBuf> = Kind::file(),
             /// Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion
-            cut_off: Kind::quantity(LENGTH, Range::POSITIVE, &["D"]),
+            cut_off: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["D"]),
             /// Work of adhesion at each node, instead of one for all, in a file with a format and the shape of the
             /// heights
-            work_of_adhesion_map: Kind::file(),
+            work_of_adhesion_map: Option<PathBuf> = Kind::file(),
             /// What keeps the surfaces apart: a rigid wall, the repulsion of lennard-jones or morse alone, or springs
-            wall: Kind::word(Wall::words, &["WALL"]).or("hard"),
+            wall: Option<Wall> = Kind::word(Wall::words, &["WALL"]).or("hard"),
             /// Stiffness of the springs of a penalty or uzawa wall, a pressure per length
-            wall_stiffness: Kind::quantity(PRESSURE_PER_LENGTH, Range::POSITIVE, &["K"]),
+            wall_stiffness: Option<f64> = Kind::quantity(PRESSURE_PER_LENGTH, Range::POSITIVE, &["K"]),
         }
         "Body" {
             /// Hardness, the greatest contact pressure: where it is reached, the surface yields and stays flattened
-            hardness: Kind::quantity(PRESSURE, Range::POSITIVE, &["H"]),
+            hardness: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["H"]),
             /// Hardness at each node, instead of one for all, in a file with a format and the shape of the heights; in
             /// Pa if other numbers have units
-            hardness_map: Kind::file(),
+            hardness_map: Option<PathBuf> = Kind::file(),
         }
     }
 }
@@ -93,9 +95,35 @@ impl Default for Adhesion {
 }
 
 impl Adhesion {
+    /// The adhesion and the wall of what was given.
+    pub(crate) fn given(keys: AdhesionKeys) -> Self {
+        let named = |path: Option<PathBuf>| path.map(|path| path.to_string_lossy().into_owned());
+        let AdhesionKeys { law, work_of_adhesion, range, exponent, hamaker, cut_off, wall, wall_stiffness, .. } = keys;
+        Self {
+            law: law.unwrap_or(LAWS[0].name.to_owned()),
+            work_of_adhesion,
+            range,
+            exponent,
+            hamaker,
+            law_table: named(keys.law_table),
+            cut_off,
+            work_of_adhesion_map: named(keys.work_of_adhesion_map),
+            wall: wall.unwrap_or_default(),
+            wall_stiffness,
+            hardness: keys.hardness,
+            hardness_map: named(keys.hardness_map),
+        }
+    }
+
     /// The law, if it is one of the library.
     pub fn law(&self) -> Option<&'static Law> {
         Law::named(&self.law)
+    }
+
+    /// The adhesion of a law that a face has as an object, with this wall and this hardness.
+    pub(crate) fn of_law(self, law: Self) -> Self {
+        let Self { wall, wall_stiffness, hardness, hardness_map, .. } = self;
+        Self { wall, wall_stiffness, hardness, hardness_map, ..law }
     }
 
     /// Whether there is adhesion.
@@ -109,7 +137,7 @@ impl Adhesion {
     }
 
     /// The value of a key in words, if it is given.
-    fn given(&self, key: &str) -> Option<String> {
+    fn told(&self, key: &str) -> Option<String> {
         match &json!(self)[key] {
             Value::Null => None,
             Value::String(text) => Some(text.clone()),
@@ -126,7 +154,7 @@ impl Adhesion {
         let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
         if law.needs.is_empty() {
             let mut keys = Law::keys().map(|key| key.name).chain(["cut_off", "work_of_adhesion_map"]);
-            if let Some(key) = keys.find(|key| self.given(key).is_some()) {
+            if let Some(key) = keys.find(|key| self.told(key).is_some()) {
                 return Err(format!(
                     "{{{key}}} is given, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
                      of adhesion with a range, or leave it out"
@@ -136,7 +164,7 @@ impl Adhesion {
         for parameter in Law::keys() {
             let key = parameter.name;
             let replaced = mapped && key == WORK;
-            let reason = match self.given(key) {
+            let reason = match self.told(key) {
                 None if law.needs.contains(&key) && !replaced => {
                     return Err(format!("{{law}} {name} lacks {{{key}}}: give it, {}", parameter.what()));
                 }
@@ -212,7 +240,7 @@ impl Adhesion {
     ///
     /// # Errors
     /// Those of [`Wall::constraint`] and [`Hardness`].
-    pub fn constraint<T: Real>(&self, hardness: Option<ArrayView2<'_, f64>>) -> Result<Constraint<T>> {
+    pub(crate) fn constraint<T: Real>(&self, hardness: Option<ArrayView2<'_, f64>>) -> Result<Constraint<T>> {
         let hardness = match hardness {
             Some(varying) => Some(Hardness::varying(varying.to_owned())?),
             None => self.hardness.map(Hardness::new).transpose()?,
@@ -225,7 +253,8 @@ impl Adhesion {
     /// # Errors
     /// Errors of the law, and of [`CutOff::new`](asperity::adhesion::CutOff::new).
     pub fn formula(&self, table: Option<&Tabulated>) -> Result<Formula> {
-        let law = (self.law().unwrap_or(&LAWS[0]).make)(self, table)?;
+        let unknown = Error::Unsuited { what: "law", reason: "it has no name of a law: see LAWS" };
+        let law = (self.law().ok_or(unknown)?.make)(self, table)?;
         match self.cut_off {
             Some(distance) => law.cut_off(distance),
             None => Ok(law),
@@ -236,7 +265,7 @@ impl Adhesion {
     ///
     /// # Errors
     /// Those of [`Adhesion::formula`] and [`Varying::new`](asperity::adhesion::Varying::new).
-    pub fn formula_on(&self, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
+    pub(crate) fn formula_on(&self, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
         // of a law of one unit they are multiples of one
         let unit: Formula = MaugisDugdale::new(1.0, 1.0)?.into();
         let most = f64::law(unit.varied(works)?).hints().work_of_adhesion;

@@ -10,12 +10,12 @@ keys! {
     FindingsKeys {
         "Output" {
             /// Find out whether the solution is stable, and write its softest mode to mode.npy
-            stability: Kind::switch().excludes(&["nested"]),
+            stability: bool = Kind::switch().excludes(&["nested"]),
             /// Continue from an unstable equilibrium to one that is not, and say how far the energy falls; implies
             /// {stability}
-            leave: Kind::switch().excludes(&["nested"]),
+            leave: bool = Kind::switch().excludes(&["nested"]),
             /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
-            stiffness: Kind::switch(),
+            stiffness: bool = Kind::switch(),
         }
     }
 }
@@ -26,7 +26,7 @@ keys! {
         "Output" {
             /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean
             /// pressure grows with the approach, and normal_stiffness, how much the force does
-            stiffness: Kind::switch(),
+            stiffness: bool = Kind::switch(),
         }
     }
 }
@@ -37,10 +37,10 @@ keys! {
         "Output" {
             /// Electrical resistivities of both half-spaces: with {stiffness} these give the electrical conductance of
             /// the contact per area, by Barber's identity, and its relative error, including that of the grid
-            resistivities: Kind::quantity(RESISTIVITY, Range::NON_NEGATIVE, &["R1", "R2"]).each()
+            resistivities: Vec<f64> = Kind::quantity(RESISTIVITY, Range::NON_NEGATIVE, &["R1", "R2"]).each()
                 .excludes(&["conductivities"]),
             /// Thermal conductivities of both half-spaces: the same for heat
-            conductivities: Kind::quantity(CONDUCTIVITY, Range::POSITIVE, &["K1", "K2"]).each(),
+            conductivities: Vec<f64> = Kind::quantity(CONDUCTIVITY, Range::POSITIVE, &["K1", "K2"]).each(),
         }
     }
 }
@@ -50,7 +50,7 @@ keys! {
     PercolationKeys {
         "Output" {
             /// Find out whether the gap is open along x and along y, and where the widest passage is narrowest
-            percolation: Kind::switch(),
+            percolation: bool = Kind::switch(),
         }
     }
 }
@@ -62,7 +62,7 @@ keys! {
             /// Enclose the transmissivity of the gap along x and y under each load between two bounds, like asperity
             /// leak; in a table the columns are transmissivity_x_lower and so on. The value is the distance of the
             /// bounds as a share of the upper one [default: 1e-3 if {leakage} has no value]
-            leakage: Kind::number(Range::SHARE, &["T"]).alone("1e-3"),
+            leakage: Option<f64> = Kind::number(Range::SHARE, &["T"]).alone("1e-3"),
         }
     }
 }
@@ -92,7 +92,8 @@ pub enum Conductors {
 impl Given {
     /// Whether the stability is asked for, by itself or with what implies it.
     pub fn is_tested(&self) -> bool {
-        self.switch("stability") || self.switch("leave")
+        let FindingsKeys { stability, leave, .. } = self.keys();
+        stability || leave
     }
 
     /// The findings that are asked for after a solve.
@@ -100,18 +101,19 @@ impl Given {
     /// # Errors
     /// Both pairs of conductors, and a leakage that is no share, for [`worded`](crate::worded).
     pub fn after(&self) -> std::result::Result<After, String> {
-        let leakage = self.number("leakage");
+        let (LeakageKeys { leakage }, PercolationKeys { percolation }) = (self.keys(), self.keys());
+        let (StiffnessKeys { stiffness }, ConductorKeys { resistivities, conductivities }) = (self.keys(), self.keys());
         if let Some(given) = leakage.filter(|share| !Range::SHARE.has(*share)) {
             return Err(format!("{{leakage}} is {given}: it must be a share between 0 and 1"));
         }
-        let conductors = match (self.pair("resistivities"), self.pair("conductivities")) {
-            (Some(_), Some(_)) => {
+        let conductors = match (&resistivities[..], &conductivities[..]) {
+            ([_, ..], [_, ..]) => {
                 return Err("{resistivities} and {conductivities} are both given: give one of them".to_owned());
             }
-            (Some(pair), None) => Some(Conductors::Electrical(pair)),
-            (None, pair) => pair.map(Conductors::Thermal),
+            (&[first, second], _) => Some(Conductors::Electrical((first, second))),
+            (_, &[first, second]) => Some(Conductors::Thermal((first, second))),
+            _ => None,
         };
-        let (stiffness, percolation) = (self.switch("stiffness"), self.switch("percolation"));
         Ok(After { stiffness, conductors, percolation, leakage })
     }
 }

@@ -4,16 +4,16 @@ use asperity::Control;
 use asperity::path::PathSettings;
 use asperity::solver::Method;
 
-use crate::key::{Adhesion, After, Branches, Given, Goal, Kind, Load, Range, keys};
+use crate::key::{Adhesion, After, Branches, FindingsKeys, Given, Goal, Kind, Load, Range, SolverKeys, keys};
 
 keys! {
     /// The grids of a solve.
     NestedKeys {
         "Solver" {
             /// Solve on coarser grids first, if these resolve the adhesion; the default if that is faster
-            nested: Kind::switch().excludes(&["initial_gap"]).replaces("no_nested"),
+            nested: Option<bool> = Kind::switch().excludes(&["initial_gap"]).replaces("no_nested"),
             /// Solve on the grid of the heights alone
-            no_nested: Kind::switch().replaces("nested"),
+            no_nested: Option<bool> = Kind::switch().replaces("nested"),
         }
     }
 }
@@ -23,17 +23,17 @@ keys! {
     PathKeys {
         "Loads" {
             /// Least number of steps from one turning point to the next
-            steps: Kind::whole(&["N"]).or("50"),
+            steps: Option<usize> = Kind::whole(&["N"]).or("50"),
             /// Step to which jumps are located, as a share of the way from one turning point to the next [default: until
             /// the work of the step is known to a fifth of the energy that the jump dissipates]
-            smallest_step: Kind::number(Range::POSITIVE, &["SHARE"]),
+            smallest_step: Option<f64> = Kind::number(Range::POSITIVE, &["SHARE"]),
             /// Imbalance of energy that a step may have, as a share of the change of the energy so far and of twenty
             /// times what jumps have dissipated; smaller jumps are not located one by one
-            imbalance: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
+            imbalance: Option<f64> = Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
         }
         "Adhesion" {
             /// Do not smooth a law whose traction jumps: the grid then pins the edge of the adhesive zone
-            sharp: Kind::switch(),
+            sharp: bool = Kind::switch(),
         }
     }
 }
@@ -44,13 +44,14 @@ impl Given {
     /// # Errors
     /// As [`Given::after`] and [`Given::goal`].
     pub fn asked(&self, load: Load, full: f64) -> Result<Asked, String> {
-        let nested = self.switch("nested");
+        let NestedKeys { nested, no_nested } = self.keys();
+        let (FindingsKeys { leave, .. }, SolverKeys { branch, .. }) = (self.keys(), self.keys());
         Ok(Asked {
             fraction: load.fraction(),
-            nested: (nested || self.switch("no_nested") || self.is_denied("nested")).then_some(nested),
-            other_branch: self.word("branch") == Some(Branches::Both.name()),
+            nested: nested.or(no_nested.map(|denied| !denied)),
+            other_branch: branch == Some(Branches::Both),
             stability: self.is_tested(),
-            leave: self.switch("leave"),
+            leave,
             after: self.after()?,
             goal: self.goal()?,
             ..Asked::under(load.control(full))
@@ -60,11 +61,9 @@ impl Given {
     /// The steps of a cycle.
     pub fn path(&self) -> PathSettings {
         let usual = PathSettings::default();
-        usual
-            .steps(self.number("steps").map_or(usual.steps, |steps| steps as usize))
-            .smallest_step(self.number("smallest_step"))
-            .imbalance(self.number("imbalance").unwrap_or(usual.imbalance))
-            .smooth(!self.switch("sharp"))
+        let PathKeys { steps, smallest_step, imbalance, sharp } = self.keys();
+        let usual = usual.steps(steps.unwrap_or(usual.steps)).smallest_step(smallest_step);
+        usual.imbalance(imbalance.unwrap_or(usual.imbalance)).smooth(!sharp)
     }
 }
 

@@ -15,11 +15,11 @@ keys! {
     GridKeys {
         "Grid" {
             /// Nodes along each side of a square
-            size: Kind::nodes(&["N"]),
+            size: Option<usize> = Kind::nodes(&["N"]),
             /// Nodes along each side of a rectangle; NY = 1 makes a line
-            shape: Kind::nodes(&["NX", "NY"]).each(),
+            shape: Vec<usize> = Kind::nodes(&["NX", "NY"]).each(),
             /// Side lengths; LX alone means square cells [default: 1 1]
-            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+            lengths: Vec<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
         }
     }
 }
@@ -30,9 +30,10 @@ impl Given {
     /// # Errors
     /// The remedy, unless either a square or a rectangle is given.
     pub fn shape(&self) -> std::result::Result<(usize, usize), String> {
-        match (self.number("size"), self.pair("shape")) {
-            (Some(size), None) => Ok((size as usize, size as usize)),
-            (None, Some((nx, ny))) => Ok((nx as usize, ny as usize)),
+        let GridKeys { size, shape, .. } = self.keys();
+        match (size, &shape[..]) {
+            (Some(size), []) => Ok((size, size)),
+            (None, &[nx, ny]) => Ok((nx, ny)),
             _ => Err("give {size}, the nodes along each side of a square, or {shape}, two numbers of nodes".to_owned()),
         }
     }
@@ -53,12 +54,12 @@ impl Given {
 
     /// The unit of the coefficients of a surface, if it is given.
     pub fn fourier_unit(&self) -> Option<f64> {
-        self.number("fourier_unit")
+        self.keys::<FourierKeys>().fourier_unit
     }
 
     /// The file of the coefficients of a surface.
     pub fn fourier(&self) -> Option<PathBuf> {
-        self.file("fourier")
+        self.keys::<FourierKeys>().fourier
     }
 }
 
@@ -67,17 +68,17 @@ keys! {
     FormKeys {
         "Form" {
             /// Form of the body, with its apex on the node in the middle
-            form: Kind::word(BodyForm::words, &["FORM"]).or("self-affine"),
+            form: Option<BodyForm> = Kind::word(BodyForm::words, &["FORM"]).or("self-affine"),
             /// Radius of a sphere or a flat punch, radius of curvature of a paraboloid
-            radius: Kind::quantity(LENGTH, Range::POSITIVE, &["R"]),
+            radius: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["R"]),
             /// Angle between the side of a cone and the half-space, in degrees: 90 less half the angle at its apex
-            angle: Kind::number(Range::ACUTE, &["DEGREES"]),
+            angle: Option<f64> = Kind::number(Range::ACUTE, &["DEGREES"]),
             /// Amplitude A of a wave
-            amplitude: Kind::quantity(LENGTH, Range::POSITIVE, &["A"]),
+            amplitude: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["A"]),
             /// Periods of a wave along x, and along y [default: 1 0]
-            periods: Kind::whole(&["MX", "MY"]).from(1),
+            periods: Vec<usize> = Kind::whole(&["MX", "MY"]).from(1),
             /// Slope of a plane that is added, along x and along y [default: 0 0]
-            tilt: Kind::number(Range::FINITE, &["SX", "SY"]).from(1),
+            tilt: Vec<f64> = Kind::number(Range::FINITE, &["SX", "SY"]).from(1),
         }
     }
 }
@@ -205,21 +206,21 @@ keys! {
     RoughnessKeys {
         "Roughness" {
             /// Root mean square of the heights of the roughness, a length
-            rms_height: Kind::quantity(LENGTH, Range::POSITIVE, &["H"]).excludes(&["rms_slope"]),
+            rms_height: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["H"]).excludes(&["rms_slope"]),
             /// Root mean square of the slope of the roughness
-            rms_slope: Kind::number(Range::POSITIVE, &["S"]),
+            rms_slope: Option<f64> = Kind::number(Range::POSITIVE, &["S"]),
             /// Hurst exponent, from 0 to 1
-            hurst: Kind::number(Range::FINITE, &["H"]).or("0.8"),
+            hurst: Option<f64> = Kind::number(Range::FINITE, &["H"]).or("0.8"),
             /// Wave number of the longest waves, in units of 2 pi/LX
-            k_l: Kind::number(Range::FINITE, &["KL"]).or("4"),
+            k_l: Option<f64> = Kind::number(Range::FINITE, &["KL"]).or("4"),
             /// Wave number up to which the spectrum is constant [default: KL, for none]
-            k_r: Kind::number(Range::FINITE, &["KR"]),
+            k_r: Option<f64> = Kind::number(Range::FINITE, &["KR"]),
             /// Wave number of the shortest waves, below half the number of nodes
-            k_s: Kind::number(Range::FINITE, &["KS"]).or("64"),
+            k_s: Option<f64> = Kind::number(Range::FINITE, &["KS"]).or("64"),
             /// Let only phases be random, and not the moduli of the waves
-            random_phase: Kind::switch(),
+            random_phase: bool = Kind::switch(),
             /// Seed of the random numbers, from 0: each makes another surface
-            seed: Kind::whole(&["N"]).or("0"),
+            seed: Option<u64> = Kind::whole(&["N"]).or("0"),
         }
     }
 }
@@ -230,9 +231,9 @@ keys! {
         "Roughness" {
             /// Roughness by the Fourier coefficients of a text: lines of qX, qY, Re h(q), Im h(q), with whole numbers of
             /// periods along the sides, as FFTW's inverse transform takes them; half of the waves is enough
-            fourier: Kind::file().excludes(&["rms_height", "rms_slope"]),
+            fourier: Option<PathBuf> = Kind::file().excludes(&["rms_height", "rms_slope"]),
             /// Length of which the coefficients are multiples [default: the unit of the side lengths, where that has no name]
-            fourier_unit: Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"])
+            fourier_unit: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"])
                 .needs(&["fourier"]).excludes(&["rms_height", "rms_slope"]),
         }
     }

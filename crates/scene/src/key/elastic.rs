@@ -1,5 +1,6 @@
 //! The elastic body, by the names of its parameters.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Plate, Series};
@@ -8,7 +9,9 @@ use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::key::{Boundary, ENERGY, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Units, Word, keys, record};
+use crate::key::{
+    Boundary, ENERGY, Form, Given, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Taken, Units, Word, keys, record,
+};
 
 keys! {
     /// The surface, the bodies, and the boundary.
@@ -16,49 +19,49 @@ keys! {
         "Surface" {
             /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz,
             /// Gwyddion's text export, or a text matrix
-            heights: Kind::file().required(),
+            heights: Option<PathBuf> = Kind::file().required(),
             /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else
             /// 1 1]
-            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+            lengths: Vec<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
             /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
             /// deforms
-            modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]).or("1"),
+            modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]).or("1"),
             /// Surroundings of the map
-            boundary: Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"),
+            boundary: Option<Boundary> = Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"),
             /// Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or
             /// in a hole; in the files of results their gap is NaN and their pressures are 0
-            absent_missing: Kind::switch(),
+            absent_missing: bool = Kind::switch(),
         }
         "Body" {
             /// Thickness of an elastic layer on a rigid base, instead of a half-space; needs {poisson}
-            layer: Kind::quantity(LENGTH, Range::POSITIVE, &["T"]).excludes(&["coating"]),
+            layer: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["T"]).excludes(&["coating"]),
             /// Hold of the base on the layer: bonded, or sliding without friction [default: bonded]
-            base: Kind::word(|| Word::all(&["bonded", "sliding"]), &["BASE"]),
+            base: Option<Base> = Kind::word(|| Word::all(&["bonded", "sliding"]), &["BASE"]),
             /// Thickness of an elastic coating on the half-space; {modulus} is then that of the substrate; needs
             /// {coating_modulus}, {coating_poisson} and {poisson}
-            coating: Kind::quantity(LENGTH, Range::POSITIVE, &["T"]),
+            coating: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["T"]),
             /// Contact modulus E/(1 - nu^2) of the coating, a pressure
-            coating_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
+            coating_modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Poisson's ratio of the coating
-            coating_poisson: Kind::number(Range::POISSON, &["NU"]),
+            coating_poisson: Option<f64> = Kind::number(Range::POISSON, &["NU"]),
             /// Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; {modulus} is then that of the
             /// half-space
-            plate: Kind::quantity(ENERGY, Range::POSITIVE, &["D"]).excludes(&["layer", "coating"]),
+            plate: Option<f64> = Kind::quantity(ENERGY, Range::POSITIVE, &["D"]).excludes(&["layer", "coating"]),
             /// Poisson's ratio of the layer, or of the substrate under a coating
-            poisson: Kind::number(Range::POISSON, &["NU"]),
+            poisson: Option<f64> = Kind::number(Range::POISSON, &["NU"]),
         }
         "Surface" {
             /// Heights of the second surface, measured with its peaks up, with the same number of nodes and the same
             /// sides; the program turns it over about the y axis, so that it faces the first one
-            against: Kind::file(),
+            against: Option<PathBuf> = Kind::file(),
             /// Contact modulus E/(1 - nu^2) of the second body, an elastic half-space [default: it is rigid]
-            against_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
+            against_modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Shift of the second surface along x and y, also by parts of a node [default: 0 0]; write negative ones
             /// with a unit as --shift=-1um,0um
-            shift: Kind::quantity(LENGTH, Range::FINITE, &["X", "Y"]).from(1).commas().needs(&["against"]),
+            shift: Vec<f64> = Kind::quantity(LENGTH, Range::FINITE, &["X", "Y"]).from(1).commas().needs(&["against"]),
             /// Give results on all nodes of a map that asperity prepare has mirrored; without it, fields, pictures,
             /// contact and force are those of the original
-            whole: Kind::switch(),
+            whole: bool = Kind::switch(),
         }
     }
 }
@@ -68,7 +71,7 @@ keys! {
     LengthsKeys {
         "" {
             /// Side lengths of the map, in the unit of the file; LX alone means square cells [default: the file's]
-            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+            lengths: Vec<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
         }
     }
 }
@@ -100,6 +103,14 @@ record! {
         symbol: Option<Symbol> = None,
         /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
         against_modulus: Option<f64> = None,
+    }
+}
+
+impl Taken for Option<Base> {
+    const FORM: Form = Form::Word;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        given.named(key)
     }
 }
 
@@ -137,8 +148,8 @@ static BODIES: [BodyKind; 4] = [
         needs: &["poisson"],
         takes: &["base"],
         make: |elastic| {
-            let material = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
-            Ok(Arc::new(Layer::new(material, or_nan(elastic.layer), elastic.base.unwrap_or_default())?))
+            let material = Material::new(elastic.modulus, needed(elastic.poisson)?)?;
+            Ok(Arc::new(Layer::new(material, needed(elastic.layer)?, elastic.base.unwrap_or_default())?))
         },
         told: |elastic, units| {
             let hold = if elastic.base == Some(Base::Sliding) { "sliding" } else { "bonded" };
@@ -150,9 +161,9 @@ static BODIES: [BodyKind; 4] = [
         needs: &["coating_modulus", "coating_poisson", "poisson"],
         takes: &[],
         make: |elastic| {
-            let coating = Material::new(or_nan(elastic.coating_modulus), or_nan(elastic.coating_poisson))?;
-            let substrate = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
-            Ok(Arc::new(Coating::new(coating, or_nan(elastic.coating), substrate)?))
+            let coating = Material::new(needed(elastic.coating_modulus)?, needed(elastic.coating_poisson)?)?;
+            let substrate = Material::new(elastic.modulus, needed(elastic.poisson)?)?;
+            Ok(Arc::new(Coating::new(coating, needed(elastic.coating)?, substrate)?))
         },
         told: |elastic, units| {
             let modulus = units.number(or_nan(elastic.coating_modulus), PRESSURE);
@@ -163,7 +174,7 @@ static BODIES: [BodyKind; 4] = [
         key: "plate",
         needs: &[],
         takes: &[],
-        make: |elastic| Ok(Arc::new(Plate::new(or_nan(elastic.plate), HalfSpace::new(elastic.modulus)?)?)),
+        make: |elastic| Ok(Arc::new(Plate::new(needed(elastic.plate)?, HalfSpace::new(elastic.modulus)?)?)),
         told: |elastic, units| format!("plate of bending stiffness {}", units.number(or_nan(elastic.plate), ENERGY)),
     },
     BodyKind {
@@ -181,12 +192,27 @@ static BODIES: [BodyKind; 4] = [
     },
 ];
 
-/// A number that is needed, or one that no body takes.
+/// A parameter that a body needs.
+fn needed(parameter: Option<f64>) -> Result<f64> {
+    parameter.ok_or(Error::Unsuited { what: "body", reason: "it lacks a parameter: give all that it needs" })
+}
+
+/// A parameter as it is told; NaN of a body that lacks it, which nothing poses.
 fn or_nan(number: Option<f64>) -> f64 {
     number.unwrap_or(f64::NAN)
 }
 
 impl Elastic {
+    /// The body of what was given; a layer is bonded by default.
+    pub(crate) fn given(keys: SurfaceKeys) -> Self {
+        let SurfaceKeys { boundary, modulus, poisson, layer, base, coating, plate, against_modulus, .. } = keys;
+        let SurfaceKeys { coating_modulus, coating_poisson, .. } = keys;
+        let (boundary, modulus) = (boundary.unwrap_or_default(), modulus.unwrap_or(1.0));
+        let base = base.or(layer.map(|_| Base::default()));
+        let own = Self { boundary, modulus, poisson, layer, base, coating, plate, against_modulus, ..Self::default() };
+        Self { coating_modulus, coating_poisson, ..own }
+    }
+
     /// Those of the body itself, in the order of its kinds.
     fn own(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
         let of_half_space = ["boundary", "modulus", "against_modulus"];
@@ -273,7 +299,7 @@ impl Elastic {
     ///
     /// # Errors
     /// [`Error::Memory`] if the memory is too small, and those of the body and the operator.
-    pub fn operator<T: Real>(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
+    pub(crate) fn operator<T: Real>(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
         if !grid.is_shared() {
             check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
         }
@@ -294,7 +320,7 @@ impl Elastic {
     ///
     /// # Errors
     /// Those of the body.
-    pub fn body(&self) -> Result<Arc<dyn Body>> {
+    pub(crate) fn body(&self) -> Result<Arc<dyn Body>> {
         let own = match self.kind() {
             Some(kind) => (kind.make)(self)?,
             None => Arc::new(HalfSpace::new(self.modulus)?),
@@ -324,7 +350,7 @@ impl Elastic {
     ///
     /// # Errors
     /// The reason why a surface with absent nodes has none, and a remedy.
-    pub fn full_pressure(&self, surface: &Surface) -> std::result::Result<f64, String> {
+    pub(crate) fn full_pressure(&self, surface: &Surface) -> std::result::Result<f64, String> {
         match surface.absent_nodes() {
             0 => Ok(self.with_other(self.modulus) * surface.statistics().rms_slope),
             absent => Err(format!(

@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use crate::key::synonyms::similar;
-use crate::key::{Key, Quantity, Skin, Values, worded};
+use crate::key::{Form, Key, Keys, LengthsKeys, Quantity, Skin, Values, worded};
 
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +84,6 @@ fn shortened(text: &str) -> String {
 
 impl Given {
     /// What a map of keys and values gives for some of the `known` keys; a value that is empty or false gives nothing.
-    /// Whether a number lies in the range of its key is left to whoever takes it.
     ///
     /// # Errors
     /// The key and the remedy, if it is not known, a value is none for it, or it needs another one, for
@@ -120,9 +119,8 @@ impl Given {
                     return Err(format!("{name} is {}: it must be {count}, {symbols}", shortened(&texts.join(", "))));
                 }
             }
-            let of = |text: &String| {
-                key.any_value(text).map_err(|reason| format!("{name} is {}: {reason}", shortened(text)))
-            };
+            let of =
+                |text: &String| key.value(text).map_err(|reason| format!("{name} is {}: {reason}", shortened(text)));
             let read = texts.iter().map(of).collect::<Result<Vec<_>, _>>()?;
             given.insert(key, read, texts.into_iter().map(Into::into).collect(), false);
         }
@@ -182,6 +180,16 @@ impl Given {
         self.0.iter().find(|entry| !usual(entry)).map(|entry| entry.key.name)
     }
 
+    /// What was given for a list of keys.
+    pub fn keys<L: Keys>(&self) -> L {
+        L::of(self)
+    }
+
+    /// What was given for a key, in the form of a field.
+    pub(crate) fn taken<T: Taken>(&self, name: &str) -> T {
+        T::taken(self, name)
+    }
+
     /// The numbers of a key.
     pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         Some(match self.value(name)? {
@@ -190,14 +198,9 @@ impl Given {
         })
     }
 
-    /// The number of a key.
-    pub(crate) fn number(&self, name: &str) -> Option<f64> {
-        self.value(name)?.as_f64()
-    }
-
-    /// The two numbers of a key.
-    pub(crate) fn pair(&self, name: &str) -> Option<(f64, f64)> {
-        if let [first, second] = self.numbers(name)?[..] { Some((first, second)) } else { None }
+    /// The variant of an enumeration that the word of a key names.
+    pub(crate) fn named<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+        serde_json::from_value(self.value(name)?.clone()).ok()
     }
 
     /// The word of a key.
@@ -205,24 +208,9 @@ impl Given {
         self.value(name)?.as_str()
     }
 
-    /// Whether a switch is set.
-    pub(crate) fn switch(&self, name: &str) -> bool {
-        self.value(name) == Some(&Value::Bool(true))
-    }
-
-    /// Whether a switch is set to false, which says something else than leaving it out.
-    pub(crate) fn is_denied(&self, name: &str) -> bool {
-        self.value(name) == Some(&Value::Bool(false))
-    }
-
-    /// The file of a key.
-    pub(crate) fn file(&self, name: &str) -> Option<PathBuf> {
-        self.get(name)?.typed.first().map(PathBuf::from)
-    }
-
     /// The side lengths of a map of a shape, by two of them, or one, which means square cells; a line is as wide as long.
     pub fn lengths(&self, (nx, ny): (usize, usize)) -> Option<(f64, f64)> {
-        match self.numbers("lengths")?[..] {
+        match self.keys::<LengthsKeys>().lengths[..] {
             [lx, ly, ..] => Some((lx, ly)),
             [lx] if ny == 1 => Some((lx, lx)),
             [lx] => Some((lx, lx / nx as f64 * ny as f64)),
@@ -258,6 +246,56 @@ impl Given {
         };
         let typed = self.0.iter().filter(|entry| !entry.is_default);
         typed.map(|entry| (entry.key.name.to_owned(), of(entry))).collect()
+    }
+}
+
+/// The form in which a field of a list has what was given for its key.
+pub trait Taken: Sized {
+    /// The form of the values of the key.
+    const FORM: Form;
+
+    /// What was given for a key.
+    fn taken(given: &Given, key: &str) -> Self;
+}
+
+macro_rules! taken {
+    ($($type:ty: $form:ident = |$value:ident| $of:expr;)+) => {
+        $(impl Taken for $type {
+            const FORM: Form = Form::$form;
+
+            fn taken(given: &Given, key: &str) -> Self {
+                let $value = given.value(key);
+                $of
+            }
+        })+
+    };
+}
+
+taken! {
+    Option<f64>: Number = |value| value?.as_f64();
+    Vec<f64>: Numbers = |value| several(value, Value::as_f64);
+    Option<u64>: Count = |value| value?.as_u64();
+    Option<usize>: Count = |value| value?.as_u64().map(|count| count as usize);
+    Vec<usize>: Counts = |value| several(value, |count| count.as_u64().map(|count| count as usize));
+    Option<String>: Word = |value| value?.as_str().map(str::to_owned);
+    Vec<String>: Words = |value| several(value, |word| word.as_str().map(str::to_owned));
+    bool: Switch = |value| value == Some(&Value::Bool(true));
+    Option<bool>: Denial = |value| value?.as_bool();
+}
+
+impl Taken for Option<PathBuf> {
+    const FORM: Form = Form::File;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        given.get(key)?.typed.first().map(PathBuf::from)
+    }
+}
+
+/// The values of a key that may have several.
+fn several<V>(value: Option<&Value>, of: impl Fn(&Value) -> Option<V>) -> Vec<V> {
+    match value {
+        Some(Value::Array(all)) => all.iter().filter_map(of).collect(),
+        one => one.and_then(of).into_iter().collect(),
     }
 }
 

@@ -51,6 +51,36 @@ pub enum Values {
     Numbers(Range),
 }
 
+/// The form of what is given for a key, which its field has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A number, or none.
+    Number,
+    /// Numbers.
+    Numbers,
+    /// A whole number, or none.
+    Count,
+    /// Whole numbers.
+    Counts,
+    /// A word or a text, or none.
+    Word,
+    /// Words.
+    Words,
+    /// Whether a switch is set.
+    Switch,
+    /// Whether a switch is set or denied, or neither.
+    Denial,
+    /// The name of a file, or none.
+    File,
+}
+
+impl Form {
+    /// Whether it is another one.
+    pub(crate) const fn is(self, other: Self) -> bool {
+        self as u8 == other as u8
+    }
+}
+
 /// A word that a key may have.
 #[derive(Clone, Copy, Debug)]
 pub struct Word {
@@ -171,6 +201,23 @@ impl Kind {
     /// A key that has to be given.
     pub(crate) const fn required(self) -> Self {
         Self { required: true, ..self }
+    }
+
+    /// The form of what is given.
+    pub(crate) const fn form(&self) -> Form {
+        let is_several = self.count.1 > 1 || self.commas;
+        match self.values {
+            Values::Switch if self.replaces.is_some() => Form::Denial,
+            Values::Switch => Form::Switch,
+            Values::File => Form::File,
+            Values::Quantities(..) | Values::Numbers(_) => Form::Numbers,
+            Values::Quantity(..) | Values::Number(_) if is_several => Form::Numbers,
+            Values::Quantity(..) | Values::Number(_) => Form::Number,
+            Values::Whole(..) if is_several => Form::Counts,
+            Values::Whole(..) => Form::Count,
+            Values::Word(_) | Values::Text(_) if is_several => Form::Words,
+            Values::Word(_) | Values::Text(_) => Form::Word,
+        }
     }
 
     /// Whether there may be several values.

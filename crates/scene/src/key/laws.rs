@@ -56,7 +56,7 @@ pub static LAWS: [Law; 9] = [
         remark: "; the limit of no range, with r = sqrt(13 W dx/E*) on nodes dx apart",
         source: "Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971)",
         of_grid: true,
-        make: |of, _| Ok(Jkr::new(known(of.work_of_adhesion))?.into()),
+        make: |of, _| Ok(Jkr::new(needed(of.work_of_adhesion)?)?.into()),
         ..NONE
     },
     Law {
@@ -64,7 +64,7 @@ pub static LAWS: [Law; 9] = [
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
         needs: &[WORK, "range"],
         source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
-        make: |of, _| Ok(MaugisDugdale::new(known(of.work_of_adhesion), known(of.range))?.into()),
+        make: |of, _| Ok(MaugisDugdale::new(needed(of.work_of_adhesion)?, needed(of.range)?)?.into()),
         ..NONE
     },
     Law {
@@ -73,7 +73,7 @@ pub static LAWS: [Law; 9] = [
         needs: &[WORK, "range"],
         source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
         never_ends: true,
-        make: |of, _| Ok(Exponential::new(known(of.work_of_adhesion), known(of.range))?.into()),
+        make: |of, _| Ok(Exponential::new(needed(of.work_of_adhesion)?, needed(of.range)?)?.into()),
         ..NONE
     },
     Law {
@@ -85,7 +85,7 @@ pub static LAWS: [Law; 9] = [
         never_ends: true,
         repels: true,
         make: |of, _| {
-            let law = LennardJones::new(known(of.work_of_adhesion), known(of.range))?;
+            let law = LennardJones::new(needed(of.work_of_adhesion)?, needed(of.range)?)?;
             Ok(if of.wall == Wall::None { law } else { law.cut() }.into())
         },
         ..NONE
@@ -97,7 +97,7 @@ pub static LAWS: [Law; 9] = [
         source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
         never_ends: true,
         repels: true,
-        make: |of, _| Ok(Morse::new(known(of.work_of_adhesion), known(of.range))?.into()),
+        make: |of, _| Ok(Morse::new(needed(of.work_of_adhesion)?, needed(of.range)?)?.into()),
         ..NONE
     },
     Law {
@@ -106,7 +106,7 @@ pub static LAWS: [Law; 9] = [
         needs: &[WORK, "range", "exponent"],
         source: "as for forces between bodies that fall with a power of their distance",
         never_ends: true,
-        make: |of, _| Ok(PowerLaw::new(known(of.work_of_adhesion), known(of.range), known(of.exponent))?.into()),
+        make: |of, _| Ok(PowerLaw::new(needed(of.work_of_adhesion)?, needed(of.range)?, needed(of.exponent)?)?.into()),
         ..NONE
     },
     Law {
@@ -116,7 +116,7 @@ pub static LAWS: [Law; 9] = [
         remark: ", the distance in contact; cut off where retardation begins",
         source: "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
         never_ends: true,
-        make: |of, _| Ok(PowerLaw::van_der_waals(known(of.hamaker), known(of.range))?.into()),
+        make: |of, _| Ok(PowerLaw::van_der_waals(needed(of.hamaker)?, needed(of.range)?)?.into()),
         ..NONE
     },
     Law {
@@ -127,7 +127,7 @@ pub static LAWS: [Law; 9] = [
         source: "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
         make: |_, table| match table {
             Some(table) => Ok(table.clone().into()),
-            None => Ok(NoAdhesion.into()),
+            None => Err(Error::Unsuited { what: "law", reason: "it lacks its table: give gaps and tractions" }),
         },
         ..NONE
     },
@@ -153,9 +153,9 @@ impl Law {
     }
 }
 
-/// A parameter that is checked before; a law of one unit without it.
-fn known(parameter: Option<f64>) -> f64 {
-    parameter.unwrap_or(1.0)
+/// A parameter that a law needs.
+fn needed(parameter: Option<f64>) -> Result<f64> {
+    parameter.ok_or(Error::Unsuited { what: "law", reason: "it lacks a parameter: give all that it needs" })
 }
 
 /// The law of a table of gaps and tractions, which was read from a file.

@@ -10,17 +10,17 @@ keys! {
         "" {
             /// Surroundings of the map: with a free boundary the fluid enters at one side and leaves at the other
             /// [default: that of the folder, or periodic]
-            boundary: Kind::word(Boundary::words, &["BOUNDARY"]),
+            boundary: Option<Boundary> = Kind::word(Boundary::words, &["BOUNDARY"]),
             /// Gap of absent nodes, at which the file has no number; without it they are closed
-            absent_gap: Kind::quantity(LENGTH, Range::POSITIVE, &["G"]),
+            absent_gap: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["G"]),
             /// Dynamic viscosity of the fluid, for the flow per pressure
-            viscosity: Kind::quantity(VISCOSITY, Range::POSITIVE, &["ETA"]),
+            viscosity: Option<f64> = Kind::quantity(VISCOSITY, Range::POSITIVE, &["ETA"]),
         }
         "Solver" {
             /// Distance of the bounds at which to stop, relative to the upper one
-            tolerance: Kind::number(Range::SHARE, &["T"]).or("1e-6"),
+            tolerance: Option<f64> = Kind::number(Range::SHARE, &["T"]).or("1e-6"),
             /// The most iterations along each axis
-            max_iterations: Kind::whole(&["N"]).or("1000"),
+            max_iterations: Option<usize> = Kind::whole(&["N"]).or("1000"),
         }
     }
 }
@@ -29,16 +29,14 @@ impl Given {
     /// What is asked of a gap with a boundary, unless that is given.
     pub fn leak(&self, boundary: Boundary) -> LeakAsked {
         let settings = Leakage::default();
-        let tolerance = self.number("tolerance").unwrap_or(settings.tolerance);
-        let most = self.number("max_iterations").map_or(settings.max_iterations, |most| most as usize);
-        let boundary = self
-            .word("boundary")
-            .map_or(boundary, |name| if name == Boundary::Free.name() { Boundary::Free } else { Boundary::Periodic });
+        let LeakKeys { boundary: given, absent_gap, viscosity, tolerance, max_iterations } = self.keys();
+        let (tolerance, most) =
+            (tolerance.unwrap_or(settings.tolerance), max_iterations.unwrap_or(settings.max_iterations));
         LeakAsked {
-            boundary,
-            absent_gap: self.number("absent_gap"),
+            boundary: given.unwrap_or(boundary),
+            absent_gap,
             settings: settings.tolerance(tolerance).max_iterations(most),
-            viscosity: self.number("viscosity"),
+            viscosity,
             grid_error: true,
         }
     }

@@ -9,27 +9,27 @@ keys! {
     LoadKeys {
         "Load" {
             /// Mean gap that is held, a length; with a periodic boundary
-            mean_gap: Kind::quantity(LENGTH, Range::NON_NEGATIVE, &["G"]),
+            mean_gap: Option<f64> = Kind::quantity(LENGTH, Range::NON_NEGATIVE, &["G"]),
             /// Mean external pressure that is held, over the area of the map, compression positive
-            mean_pressure: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
+            mean_pressure: Option<f64> = Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
             /// Normal force that is held, compression positive: the mean pressure times the area of the map
-            normal_force: Kind::quantity(FORCE, Range::FINITE, &["F"]),
+            normal_force: Option<f64> = Kind::quantity(FORCE, Range::FINITE, &["F"]),
             /// Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved
             /// towards each other from the position of first touch without deformation; negative before it
-            approach: Kind::quantity(LENGTH, Range::FINITE, &["D"]),
+            approach: Option<f64> = Kind::quantity(LENGTH, Range::FINITE, &["D"]),
             /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
             /// {spring_position}
-            spring_stiffness:
+            spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_position"]),
             /// Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z
             /// - D); with a periodic one a mean gap, F = K (G - Z)
-            spring_position: Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
+            spring_position: Option<f64> = Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
             /// Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)
-            reduced_pressure: Kind::number(Range::FINITE, &["R"]),
+            reduced_pressure: Option<f64> = Kind::number(Range::FINITE, &["R"]),
             /// Share of the nodes in contact to search for, to one node or 1 %. Without adhesion the search varies the
             /// mean pressure, with adhesion the mean gap, and with adhesion and a free boundary the approach. If the
             /// contact jumps past the share, the nearer side of the jump is written, and the exit code is 2
-            contact_fraction: Kind::number(Range::SHARE, &["A"]).excludes(&["accuracy", "nested"]),
+            contact_fraction: Option<f64> = Kind::number(Range::SHARE, &["A"]).excludes(&["accuracy", "nested"]),
         }
     }
 }
@@ -40,26 +40,26 @@ keys! {
         "Loads" {
             /// Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log,
             /// separated by commas
-            mean_gaps: Kind::quantities(LENGTH, Range::NON_NEGATIVE),
+            mean_gaps: Vec<f64> = Kind::quantities(LENGTH, Range::NON_NEGATIVE),
             /// Mean external pressures over the area of the map, compression positive: a list like that of the gaps
-            mean_pressures: Kind::quantities(PRESSURE, Range::FINITE),
+            mean_pressures: Vec<f64> = Kind::quantities(PRESSURE, Range::FINITE),
             /// Normal forces, compression positive: a list like that of the gaps
-            normal_forces: Kind::quantities(FORCE, Range::FINITE),
+            normal_forces: Vec<f64> = Kind::quantities(FORCE, Range::FINITE),
             /// Approaches, with a free boundary or over a layer or a coating: how far the bodies have moved towards each
             /// other from the position of first touch without deformation, negative before it; a list like that of the gaps. A list that grows
             /// from a negative value begins with the bodies apart
-            approaches: Kind::quantities(LENGTH, Range::FINITE),
+            approaches: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE),
             /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
             /// {spring_positions}
-            spring_stiffness:
+            spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_positions"]),
             /// Positions Z of the spring's far end, at which the spring is relaxed: with a free boundary approaches, F
             /// = K (Z - D); with a periodic one mean gaps, F = K (G - Z); a list like that of the gaps. With a free
             /// boundary a list that grows from a negative value begins with the bodies apart
-            spring_positions: Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
+            spring_positions: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
             /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like that
             /// of the gaps
-            reduced_pressures: Kind::numbers(Range::FINITE),
+            reduced_pressures: Vec<f64> = Kind::numbers(Range::FINITE),
         }
     }
 }
@@ -71,7 +71,7 @@ keys! {
             /// Shares of the nodes in contact to search for: a list like that of the gaps. The load of each is found
             /// like that of asperity solve --contact-fraction, and the table has two more columns,
             /// wanted_contact_fraction and reached
-            contact_fractions: Kind::numbers(Range::SHARE),
+            contact_fractions: Vec<f64> = Kind::numbers(Range::SHARE),
         }
     }
 }
@@ -82,27 +82,65 @@ struct LoadKind {
     one: &'static str,
     /// The key of a list of them.
     many: &'static str,
+    /// The number of one load, if it is given.
+    given: fn(&LoadKeys) -> Option<f64>,
+    /// The numbers of a list of them.
+    listed: fn(LoadsKeys, FractionsKeys) -> Vec<f64>,
     /// The load of its number, and of the stiffness of a spring.
     make: fn(f64, f64) -> Load,
 }
 
 /// The kinds of loads.
 static KINDS: [LoadKind; 7] = [
-    LoadKind { one: "mean_gap", many: "mean_gaps", make: |gap, _| Load::Held(Control::MeanGap(gap)) },
+    LoadKind {
+        one: "mean_gap",
+        many: "mean_gaps",
+        given: |keys| keys.mean_gap,
+        listed: |keys, _| keys.mean_gaps,
+        make: |gap, _| Load::Held(Control::MeanGap(gap)),
+    },
     LoadKind {
         one: "mean_pressure",
         many: "mean_pressures",
+        given: |keys| keys.mean_pressure,
+        listed: |keys, _| keys.mean_pressures,
         make: |pressure, _| Load::Held(Control::MeanPressure(pressure)),
     },
-    LoadKind { one: "normal_force", many: "normal_forces", make: |force, _| Load::Held(Control::Force(force)) },
-    LoadKind { one: "approach", many: "approaches", make: |approach, _| Load::Held(Control::Approach(approach)) },
+    LoadKind {
+        one: "normal_force",
+        many: "normal_forces",
+        given: |keys| keys.normal_force,
+        listed: |keys, _| keys.normal_forces,
+        make: |force, _| Load::Held(Control::Force(force)),
+    },
+    LoadKind {
+        one: "approach",
+        many: "approaches",
+        given: |keys| keys.approach,
+        listed: |keys, _| keys.approaches,
+        make: |approach, _| Load::Held(Control::Approach(approach)),
+    },
     LoadKind {
         one: "spring_position",
         many: "spring_positions",
+        given: |keys| keys.spring_position,
+        listed: |keys, _| keys.spring_positions,
         make: |rest, stiffness| Load::Held(Control::Spring { stiffness, rest }),
     },
-    LoadKind { one: "reduced_pressure", many: "reduced_pressures", make: |ratio, _| Load::Reduced(ratio) },
-    LoadKind { one: "contact_fraction", many: "contact_fractions", make: |fraction, _| Load::Fraction(fraction) },
+    LoadKind {
+        one: "reduced_pressure",
+        many: "reduced_pressures",
+        given: |keys| keys.reduced_pressure,
+        listed: |keys, _| keys.reduced_pressures,
+        make: |ratio, _| Load::Reduced(ratio),
+    },
+    LoadKind {
+        one: "contact_fraction",
+        many: "contact_fractions",
+        given: |keys| keys.contact_fraction,
+        listed: |_, keys| keys.contact_fractions,
+        make: |fraction, _| Load::Fraction(fraction),
+    },
 ];
 
 impl Given {
@@ -111,7 +149,8 @@ impl Given {
     /// # Errors
     /// The remedy where none is given, or several are, for [`worded`](crate::worded).
     pub fn load(&self) -> Result<Load, String> {
-        let found = self.loads_by(|kind| kind.one)?;
+        let keys: LoadKeys = self.keys();
+        let found = loads_by(keys.spring_stiffness, |kind| kind.one, |kind| (kind.given)(&keys).into_iter().collect())?;
         match found[..] {
             [load] => Ok(load),
             [] => {
@@ -127,7 +166,9 @@ impl Given {
     /// # Errors
     /// As of [`Given::load`].
     pub fn loads(&self) -> Result<Vec<Load>, String> {
-        let found = self.loads_by(|kind| kind.many)?;
+        let (keys, fractions): (LoadsKeys, FractionsKeys) = (self.keys(), self.keys());
+        let numbers = |kind: &LoadKind| (kind.listed)(keys.clone(), fractions.clone());
+        let found = loads_by(keys.spring_stiffness, |kind| kind.many, numbers)?;
         if found.is_empty() {
             return Err("there are no loads: give a list, such as {mean_pressures}".to_owned());
         }
@@ -136,29 +177,30 @@ impl Given {
 
     /// The stiffness of the spring, if there is one.
     pub fn spring_stiffness(&self) -> Option<f64> {
-        self.number("spring_stiffness")
+        self.keys::<LoadsKeys>().spring_stiffness
     }
+}
 
-    fn loads_by(&self, key: fn(&LoadKind) -> &'static str) -> Result<Vec<Load>, String> {
-        let stiffness = self.number("spring_stiffness");
-        let mut given = KINDS.iter().filter(|kind| self.has(key(kind)));
-        let (kind, other) = (given.next(), given.next());
-        let spring = |kind: &LoadKind| kind.one == "spring_position";
-        if stiffness.is_some() != kind.is_some_and(spring) && other.is_none() {
-            let position = KINDS.iter().find(|kind| spring(kind)).map(key).unwrap_or_default();
-            return Err(format!(
-                "a spring has a stiffness and a position: give both, {{spring_stiffness}} and {{{position}}}"
-            ));
-        }
-        if other.is_some() {
-            return Err("there are several loads: give those of one kind".to_owned());
-        }
-        let of = |kind: &LoadKind| {
-            let numbers = self.numbers(key(kind)).unwrap_or_default();
-            numbers.into_iter().map(|number| (kind.make)(number, stiffness.unwrap_or(f64::NAN))).collect()
-        };
-        Ok(kind.map(of).unwrap_or_default())
+/// The loads of one kind, by the numbers that are given for each, and the stiffness of a spring.
+fn loads_by(
+    stiffness: Option<f64>,
+    key: fn(&LoadKind) -> &'static str,
+    numbers: impl Fn(&LoadKind) -> Vec<f64>,
+) -> Result<Vec<Load>, String> {
+    let all = KINDS.iter().map(|kind| (kind, numbers(kind))).filter(|(_, numbers)| !numbers.is_empty());
+    let all: Vec<_> = all.collect();
+    let spring = |kind: &LoadKind| kind.one == "spring_position";
+    if all.len() < 2 && stiffness.is_some() != all.iter().any(|(kind, _)| spring(kind)) {
+        let position = KINDS.iter().find(|kind| spring(kind)).map(key).unwrap_or_default();
+        return Err(format!(
+            "a spring has a stiffness and a position: give both, {{spring_stiffness}} and {{{position}}}"
+        ));
     }
+    if all.len() > 1 {
+        return Err("there are several loads: give those of one kind".to_owned());
+    }
+    let load = |kind: &LoadKind, number| (kind.make)(number, stiffness.unwrap_or(f64::NAN));
+    Ok(all.into_iter().flat_map(|(kind, numbers)| numbers.into_iter().map(move |number| load(kind, number))).collect())
 }
 
 /// The load of a solve: one that is held, or one that is to be found.
@@ -166,7 +208,7 @@ impl Given {
 pub enum Load {
     /// A load that is held.
     Held(Control),
-    /// A mean pressure over the [full pressure](crate::Elastic::full_pressure).
+    /// A mean pressure over E* h'rms.
     Reduced(f64),
     /// A contact fraction, for which a load is searched.
     Fraction(f64),

@@ -1,19 +1,32 @@
 //! Lists of keys, enumerations of words, and records of values, each written once.
 
-/// A list of keys as a type: the names with their help, and the kinds of their values, by sections.
+/// A list of keys as a struct of what was given for them: the names with their help, and the kinds of their values, by
+/// sections. A field whose type does not fit the kind of its values does not compile.
 macro_rules! keys {
-    ($(#[$about:meta])* $list:ident { $($section:literal { $($(#[doc = $help:literal])+ $name:ident: $kind:expr,)+ })+ }) => {
+    ($(#[$about:meta])* $list:ident {
+        $($section:literal { $($(#[doc = $help:literal])+ $name:ident: $type:ty = $kind:expr,)+ })+
+    }) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug)]
-        pub struct $list;
+        #[derive(Clone, Debug)]
+        pub struct $list {
+            $($($(#[doc = $help])+ pub $name: $type,)+)+
+        }
 
         impl $crate::key::Keys for $list {
             const KEYS: &'static [$crate::key::Key] = &[$($($crate::key::Key {
                 name: stringify!($name),
                 help: concat!($($help),+),
                 section: $section,
-                kind: $kind,
+                kind: {
+                    let kind = $kind;
+                    assert!(<$type as $crate::key::Taken>::FORM.is(kind.form()));
+                    kind
+                },
             },)+)+];
+
+            fn of(given: &$crate::key::Given) -> Self {
+                Self { $($($name: given.taken(stringify!($name)),)+)+ }
+            }
         }
     };
 }
@@ -43,6 +56,15 @@ macro_rules! choice {
         impl Default for $name {
             fn default() -> Self {
                 [$(Self::$variant),+][0]
+            }
+        }
+
+        impl $crate::key::Taken for Option<$name> {
+            const FORM: $crate::key::Form = $crate::key::Form::Word;
+
+            fn taken(given: &$crate::key::Given, key: &str) -> Self {
+                let word = given.word(key)?;
+                [$($name::$variant),+].into_iter().find(|known| known.name() == word)
             }
         }
 

@@ -47,7 +47,7 @@ pub fn between(
     let (missing, has_infinite) = (second.missing(), second.heights.iter().any(|h| h.is_infinite()));
     if missing > 0 && (has_infinite || !absent_missing) {
         return Err(format!(
-            "{{against}}: {missing} of {} points are missing: fill them by {{prepare:fill}}, or treat those that are NaN as \
+            "{{against}}: {missing} of {} points are missing: fill them by {{prepare:fill=}}, or treat those that are NaN as \
              absent nodes by {{absent_missing=}}",
             second.heights.len()
         ));

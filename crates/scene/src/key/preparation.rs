@@ -81,7 +81,7 @@ impl Given {
     ) -> std::result::Result<Preparation, String> {
         let mut steps: Preparation = self.object()?;
         self.lengths(shape).map_or(Ok(()), |lengths| steps.set_lengths(lengths, si, unit))?;
-        let cut_off = self.number("cut_off_wavelength");
+        let cut_off = self.keys::<CutOffKeys>().cut_off_wavelength;
         cut_off.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, si, unit))?;
         Ok(steps)
     }
@@ -315,6 +315,7 @@ impl Preparation {
                 .filter(|found| !(is_code(found) || is_no_height(found) || has_codes)),
             &map,
         );
+        map.unread.clear();
         Ok(map)
     }
 }

@@ -6,7 +6,7 @@ use asperity::solver::Method;
 use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
 
-use crate::key::{Adhesion, Elastic, Given, Kind, Range, Word, choice, keys};
+use crate::key::{Adhesion, AdhesionKeys, Elastic, Form, Given, Kind, Range, SurfaceKeys, Taken, Word, choice, keys};
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
 /// has the keys of a report, which are left out where they have their defaults.
@@ -65,22 +65,30 @@ keys! {
     SolverKeys {
         "Solver" {
             /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
-            method: Kind::word(|| Word::all(&["default", "rey2017"]), &["METHOD"]).or("default"),
+            method: Option<Method> = Kind::word(|| Word::all(&["default", "rey2017"]), &["METHOD"]).or("default"),
             /// Certified relative error at which to stop [default: 1e-6, in f32 and in cycles 1e-4]
-            tolerance: Kind::number(Range::POSITIVE, &["T"]),
+            tolerance: Option<f64> = Kind::number(Range::POSITIVE, &["T"]),
             /// Iterations after which to give up [default: 2000, with rey2017 20000]
-            max_iterations: Kind::whole(&["N"]),
+            max_iterations: Option<usize> = Kind::whole(&["N"]),
             /// Precision of the solve, and of the fields it writes
-            precision: Kind::word(Precision::words, &["PRECISION"]).or("f64"),
+            precision: Option<Precision> = Kind::word(Precision::words, &["PRECISION"]).or("f64"),
             /// Threads; the results do not depend on it [default: one per core]
-            threads: Kind::threads(),
+            threads: Option<usize> = Kind::threads(),
             /// Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, that of
             /// surfaces pressed flat before, or with solve both [default: loading; unloading under a tension or at a given
             /// mean gap]
-            branch: Kind::word(Branches::words, &["BRANCH"]).excludes(&["initial_gap"]),
+            branch: Option<Branches> = Kind::word(Branches::words, &["BRANCH"]).excludes(&["initial_gap"]),
             /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
-            initial_gap: Kind::file(),
+            initial_gap: Option<PathBuf> = Kind::file(),
         }
+    }
+}
+
+impl Taken for Option<Method> {
+    const FORM: Form = Form::Word;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        given.named(key)
     }
 }
 
@@ -112,45 +120,44 @@ impl Files {
 
 impl Given {
     /// The scene, without what files hold.
-    ///
-    /// # Errors
-    /// The value that is none for its key.
-    pub fn scene(&self) -> std::result::Result<Scene, String> {
-        let mut scene: Scene = self.object()?;
-        if scene.elastic.layer.is_some() {
-            scene.elastic.base.get_or_insert_default();
-        }
-        Ok(scene)
+    pub fn scene(&self) -> Scene {
+        let SolverKeys { method, tolerance, max_iterations, precision, branch, .. } = self.keys();
+        let (method, precision) = (method.unwrap_or_default(), precision.unwrap_or_default());
+        let (elastic, adhesion) = (Elastic::given(self.keys()), Adhesion::given(self.keys()));
+        Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch }
     }
 
     /// The files of the problem.
     pub fn files(&self) -> Files {
-        let [against, law_table, work_of_adhesion_map, hardness_map, initial_gap] =
-            ["against", "law_table", "work_of_adhesion_map", "hardness_map", "initial_gap"].map(|key| self.file(key));
-        let heights = self.file("heights").unwrap_or_default();
+        let SurfaceKeys { heights, against, .. } = self.keys();
+        let AdhesionKeys { law_table, work_of_adhesion_map, hardness_map, .. } = self.keys();
+        let SolverKeys { initial_gap, .. } = self.keys();
+        let heights = heights.unwrap_or_default();
         Files { heights, against, law_table, work_of_adhesion_map, hardness_map, initial_gap }
     }
 
-    /// The shift of the surface on the other side, if there is one.
+    /// The shift of the surface on the other side, if it is given.
     pub fn shift(&self) -> Option<(f64, f64)> {
-        let shift = self.numbers("shift").unwrap_or_default();
-        let along = |axis: usize| shift.get(axis).copied().unwrap_or(0.0);
-        self.file("against").map(|_| (along(0), along(1)))
+        match self.keys::<SurfaceKeys>().shift[..] {
+            [x, y, ..] => Some((x, y)),
+            [x] => Some((x, 0.0)),
+            [] => None,
+        }
     }
 
     /// Whether missing points stand for absent nodes.
     pub fn absent_missing(&self) -> bool {
-        self.switch("absent_missing")
+        self.keys::<SurfaceKeys>().absent_missing
     }
 
     /// Whether results are on all nodes of a mirrored map.
     pub fn whole(&self) -> bool {
-        self.switch("whole")
+        self.keys::<SurfaceKeys>().whole
     }
 
     /// The number of threads, if it is given.
     pub fn threads(&self) -> Option<usize> {
-        self.number("threads").map(|threads| threads as usize)
+        self.keys::<SolverKeys>().threads
     }
 }
 

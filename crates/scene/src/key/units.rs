@@ -10,11 +10,11 @@ keys! {
     UnitKeys {
         "Output" {
             /// Unit of lengths that are given without one, for tables and pictures; m gets prefixes
-            length_unit: Kind::text(is_unit, &["UNIT"]),
+            length_unit: Option<String> = Kind::text(is_unit, &["UNIT"]),
             /// Unit of pressures that are given without one, for tables and pictures; Pa gets prefixes
-            pressure_unit: Kind::text(is_unit, &["UNIT"]),
+            pressure_unit: Option<String> = Kind::text(is_unit, &["UNIT"]),
             /// Unit of forces, for tables and pictures; N gets prefixes [default: that of pressure times length squared]
-            force_unit: Kind::text(is_unit, &["UNIT"]),
+            force_unit: Option<String> = Kind::text(is_unit, &["UNIT"]),
         }
     }
 }
@@ -30,17 +30,18 @@ impl Given {
     /// # Errors
     /// A unit next to one that is known, and the remedy, for [`worded`](crate::worded).
     pub fn units(&self, file: Option<&str>, si: bool) -> Result<Units, String> {
-        let chosen = |key: &str, known: Option<&str>| match (self.word(key), known) {
+        let UnitKeys { length_unit, pressure_unit, force_unit } = self.keys();
+        let chosen = |key: &str, unit: Option<String>, known: Option<&str>| match (unit, known) {
             (Some(unit), Some(known)) if unit != known => {
                 Err(format!("{{{key}}} is {unit}, but that unit is {known} already: leave it out"))
             }
-            (unit, known) => Ok(unit.or(known).map(str::to_owned)),
+            (unit, known) => Ok(unit.or(known.map(str::to_owned))),
         };
         let of_si = |dimension: Dimension| si.then_some(dimension.si);
         let units = Units {
-            length: chosen("length_unit", of_si(LENGTH).or(file))?,
-            pressure: chosen("pressure_unit", of_si(PRESSURE))?,
-            force: chosen("force_unit", of_si(FORCE))?,
+            length: chosen("length_unit", length_unit, of_si(LENGTH).or(file))?,
+            pressure: chosen("pressure_unit", pressure_unit, of_si(PRESSURE))?,
+            force: chosen("force_unit", force_unit, of_si(FORCE))?,
         };
         if let Units { length: Some(length), pressure: Some(pressure), force: Some(force) } = &units {
             let size =

@@ -10,7 +10,7 @@ pub enum Skin {
 }
 
 /// The keywords with other names than their options.
-const KEYWORDS: [(&str, &str); 1] = [("initial_gap", "start")];
+const KEYWORDS: [(&str, &str); 2] = [("initial_gap", "start"), ("hardness_map", "hardness")];
 
 /// A text with the names of a skin in the place of the keys in braces: `{mean_gap}` is `--mean-gap` or `mean_gap`, with
 /// a value `{precision=f64}` is `--precision f64` or `precision='f64'`, a switch `{whole=}` is `--whole` or
@@ -32,6 +32,7 @@ fn named(key: &str, skin: Skin) -> String {
         (Skin::Options, Some(command), _) => format!("asperity {command} --{option}"),
         (Skin::Options, None, Some(value)) => format!("--{option} {value}").trim_end().to_owned(),
         (Skin::Options, None, None) => format!("--{option}"),
+        (Skin::Keywords, Some(command), Some("")) => format!("asperity.{command}({keyword}=True)"),
         (Skin::Keywords, Some(command), _) => format!("asperity.{command}({keyword}=...)"),
         (Skin::Keywords, None, Some("")) => format!("{keyword}=True"),
         (Skin::Keywords, None, Some(value)) => format!("{keyword}='{value}'"),

@@ -71,8 +71,12 @@ impl<T: Scalar> Session<T> {
         file: Option<TableFile>,
     ) -> Outcome<()> {
         let loads = way.loads();
-        let control = way.control(&self.scene);
-        self.worded(Asked { after, ..Asked::under(control) }.check(&self.scene.adhesion, self.scene.method, false))?;
+        let control = way.control(&self.facts.scene);
+        self.worded(Asked { after, ..Asked::under(control) }.check(
+            &self.facts.scene.adhesion,
+            self.facts.scene.method,
+            false,
+        ))?;
         if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
@@ -82,7 +86,7 @@ impl<T: Scalar> Session<T> {
             true => {
                 let surface = self.surface()?;
                 if surface.absent_nodes() > 0 {
-                    self.processes.alone("the closure of a surface with absent nodes")?;
+                    self.facts.processes.alone("the closure of a surface with absent nodes")?;
                 }
                 Some(touch(&surface))
             }
@@ -93,9 +97,9 @@ impl<T: Scalar> Session<T> {
             if start.is_none() {
                 self.coarser = self.coarser(loads, *settings)?;
             }
-            let modulus = self.scene.elastic.body()?.modulus_on(&self.grid);
+            let modulus = self.facts.scene.elastic.body()?.modulus_on(&self.grid);
             let found = Warning::of_cycle(&*self.law, &self.grid, modulus, settings.smooth);
-            self.warnings.add_of_input(found.iter().map(|warning| self.units.told(warning)).collect())?;
+            self.warnings.add_of_input(found.iter().map(|warning| self.facts.units.told(warning)).collect())?;
         }
         let mut course = Course::new(way, after, touch, |load| self.on_whole(load))?;
         course.expect(self)?;
@@ -110,12 +114,12 @@ impl<T: Scalar> Session<T> {
                 let TableFile { out, format, fields, force, is_case, .. } = file;
                 let known = format.or_else(|| Format::of(&out));
                 let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
-                let (names, loads) = (course.columns(&self.scene.adhesion), course.loads());
-                let header = self.units.columns(&names, control.name(), self.grid.is_line());
+                let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
+                let header = self.facts.units.columns(&names, control.name(), self.grid.is_line());
                 let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
                 let opening = Opening { out, format, names, header, identity, loads, fields, force, is_case, beside };
                 let nodes = self.nodes()?;
-                let (table, course) = course.open(opening, start, &nodes, &self.processes)?;
+                let (table, course) = course.open(opening, start, &nodes, &self.facts.processes)?;
                 self.table = Some(table);
                 course
             }
@@ -128,23 +132,23 @@ impl<T: Scalar> Session<T> {
     fn identity(&self, file: &TableFile, start: Option<&Array2<f64>>) -> Outcome<Identity> {
         let surface = self.surface()?;
         let (start, surface) = (start.map(|start| self.grid.whole(start)), surface.whole());
-        if !self.processes.is_first() {
+        if !self.facts.processes.is_first() {
             return Ok(Identity::new());
         }
         let given = Fields {
             surface: &surface,
             law_table: file.law_table.as_deref(),
             works: file.works.as_deref(),
-            hardness: self.hardness.as_deref(),
+            hardness: self.facts.hardness.as_deref(),
             start: start.as_deref(),
             law_differs: file.law_differs,
         };
-        Ok(identity(&self.inputs, self.solver.settings.branch, &self.units.of_table(), given, &*self.law))
+        Ok(identity(&self.inputs, self.solver.settings.branch, &self.facts.units.of_table(), given, &*self.law))
     }
 
     /// The names of the columns of the table, once it was begun.
     pub fn columns(&self) -> Vec<&'static str> {
-        self.course.as_ref().map_or(Vec::new(), |course| course.columns(&self.scene.adhesion))
+        self.course.as_ref().map_or(Vec::new(), |course| course.columns(&self.facts.scene.adhesion))
     }
 
     /// The command of the table, once it was begun.
@@ -174,7 +178,7 @@ impl<T: Scalar> Session<T> {
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Outcome<Option<(Found<T>, Row)>> {
         if let Some(table) = &mut self.table {
-            self.processes.first(|| table.claim())?;
+            self.facts.processes.first(|| table.claim())?;
         }
         let Some(found) = course.next(self, observe)? else { return Ok(None) };
         let Solved { mut found, account } = self.solved(course.command(), found)?;
@@ -191,7 +195,7 @@ impl<T: Scalar> Session<T> {
         if found.solution.report.status != Status::Stopped {
             let nodes = self.nodes()?;
             if let Some(table) = &mut self.table {
-                course.append(table, (&found, &row), &nodes, &self.processes)?;
+                course.append(table, (&found, &row), &nodes, &self.facts.processes)?;
             }
             self.course = Some(course);
         }
@@ -247,6 +251,6 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// A file that cannot be read.
     pub fn read(&self) -> Outcome<Vec<Value>> {
-        self.table.as_ref().map_or(Ok(Vec::new()), |table| table.read(&self.processes))
+        self.table.as_ref().map_or(Ok(Vec::new()), |table| table.read(&self.facts.processes))
     }
 }

@@ -10,12 +10,13 @@ use asperity::solver::Iteration;
 use asperity::{Control, Solver, Status};
 use serde::Serialize;
 
+use crate::case::Part;
 use crate::key::{After, ENERGY_PER_AREA, PRESSURE, Scalar, record};
 use crate::outcome::Outcome;
-use crate::session::Session;
 use crate::session::course::Course;
 use crate::session::posed::Body;
 use crate::session::way::Way;
+use crate::session::{Facts, Session};
 use crate::table::warnings::Warnings;
 
 record! {
@@ -37,28 +38,22 @@ impl<T: Scalar> Session<T> {
     /// The same cycle on the coarser grid, before the first solve: by laws that attract next to contacts alone, where there
     /// is such a grid and neither a start nor a hardness is given node by node.
     pub(super) fn coarser(&self, loads: &[Control], settings: PathSettings) -> Outcome<Option<Box<Self>>> {
-        if !self.law.hints().touches() || self.hardness.is_some() {
+        if !self.law.hints().touches() || self.facts.hardness.is_some() {
             return Ok(None);
         }
         let surface = self.surface()?;
         let Some(surface) = LoopLimit::coarser(&surface, &*self.law)?.map(Arc::new) else { return Ok(None) };
         let ((nx, ny), (cx, cy)) = (self.grid.shape(), surface.grid().shape());
         let law = self.law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Arc::clone(&self.law));
-        let solver = Solver { settings: self.solver.settings, constraint: self.scene.adhesion.constraint(None)? };
+        let solver = Solver { settings: self.solver.settings, constraint: self.facts.scene.adhesion.constraint(None)? };
         let loads: Vec<_> = loads.iter().map(|load| self.on_whole(*load)).collect();
+        let (part, strongest, hardness, scars_removed) = (Part::all(*surface.grid()), None, None, None);
         let mut coarser = Self {
             inputs: self.inputs.clone(),
-            warnings: Warnings::new(Vec::new(), false)?,
-            scene: self.scene.clone(),
-            surface: Arc::downgrade(&surface),
-            strongest: None,
-            hardness: None,
-            original: None,
-            units: self.units.clone(),
-            scars_removed: None,
             seed: None,
-            skin: self.skin,
-            processes: self.processes.clone(),
+            warnings: Warnings::new(Vec::new(), false)?,
+            facts: Facts { part, strongest, hardness, scars_removed, ..self.facts.clone() },
+            surface: Arc::downgrade(&surface),
             grid: *surface.grid(),
             last: false,
             course: None,

@@ -37,10 +37,10 @@ impl<T: Scalar> Session<T> {
     /// surface.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`](crate::Elastic::operator) and [`Problem::new`]; [`Error::Unsuited`] for a problem that was refused before.
+    /// Those of the body, the operator and [`Problem::new`]; [`Error::Unsuited`] for a problem that was refused before.
     pub(super) fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut Problem<T>)> {
         if let Body::Surface(surface) = &self.body {
-            let operator = self.scene.elastic.operator(*surface.grid())?;
+            let operator = self.facts.scene.elastic.operator(*surface.grid())?;
             if let Body::Surface(surface) = mem::replace(&mut self.body, Body::Spent) {
                 self.body = Body::Problem(Box::new(Problem::new(&surface, operator, self.law.clone())?));
             }
@@ -75,23 +75,23 @@ impl<T: Scalar> Session<T> {
 
     /// The load on the whole map that is a load on the part of it that results are of.
     pub(super) fn on_whole(&self, load: Control) -> Control {
-        self.original.map_or(load, |original| original.load(load))
+        self.facts.part.wanted().map_or(load, |original| original.load(load))
     }
 
     /// The seconds that an operator application takes here and now, before the first solve.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`](crate::Elastic::operator) and of the operator; [`Error::Unsuited`] after the first solve.
+    /// Those of the body and the operator; [`Error::Unsuited`] after the first solve.
     pub(super) fn seconds_of_application(&self) -> Result<f64> {
-        seconds_of(&mut self.scene.elastic.operator::<T>(*self.surface()?.grid())?)
+        seconds_of(&mut self.facts.scene.elastic.operator::<T>(*self.surface()?.grid())?)
     }
 
     /// The unit of a reduced pressure, if one is among `loads`, before the first solve.
     ///
     /// # Errors
-    /// Those of [`Load::check`] and [`Elastic::full_pressure`](crate::Elastic::full_pressure).
+    /// Those of [`Load::check`], and absent nodes next to a reduced pressure.
     pub fn full_pressure(&self, loads: &[Load]) -> Outcome<f64> {
-        let elastic = &self.scene.elastic;
+        let elastic = &self.facts.scene.elastic;
         let check = |load: &Load| load.check(elastic.boundary, elastic.has_approach(), self.adheres());
         self.worded(loads.iter().try_for_each(check))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
@@ -105,7 +105,7 @@ impl<T: Scalar> Session<T> {
         self.surface()
             .ok()
             .filter(|_| comes)
-            .and_then(|surface| self.scene.elastic.boundary.start_afar(&surface, loads))
+            .and_then(|surface| self.facts.scene.elastic.boundary.start_afar(&surface, loads))
     }
 
     /// The gap of undeformed bodies under a load that says how far they are, before the first solve.
@@ -113,7 +113,34 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// As [`Boundary::apart`](crate::Boundary::apart).
     pub fn apart(&self, load: Control) -> Outcome<Array2<f64>> {
-        self.worded(self.scene.elastic.boundary.apart(&*self.surface()?, load))
+        self.worded(self.facts.scene.elastic.boundary.apart(&*self.surface()?, load))
+    }
+
+    /// The gap from which to start, of the whole surface or of the original of a mirrored one, before the first solve.
+    ///
+    /// # Errors
+    /// The remedy for another shape, and for nodes with a height that have no gap.
+    pub fn start(&self, gap: Array2<f64>) -> Outcome<Array2<f64>> {
+        let (grid, gap) = (&self.grid, self.facts.part.whole_of(gap)?);
+        let (found, expected) = (gap.dim(), grid.field_shape());
+        if found != expected {
+            let ((nx, ny), (of_x, of_y)) = (found, grid.shape());
+            return self.worded(Err(format!(
+                "{{initial_gap}} has {nx} x {ny} nodes, but the heights have {of_x} x {of_y}: give a gap at each node"
+            )));
+        }
+        let surface = self.surface()?;
+        // the library refuses what is not finite, but for nodes without a gap
+        let is_absent = |node: (usize, usize)| surface.absent().is_some_and(|absent| absent[node]);
+        let unknown = |(node, gap): &((usize, usize), &f64)| !gap.is_finite() && !is_absent(*node);
+        if let Some(((i, j), unknown)) = gap.indexed_iter().find(unknown) {
+            let i = grid.rows().start + i;
+            return self.worded(Err(format!(
+                "{{initial_gap}} is {unknown} at index [{i}, {j}], where the surface has a height: only absent nodes may \
+                 have no gap"
+            )));
+        }
+        Ok(gap)
     }
 
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take, by the seconds of an operator
@@ -123,7 +150,7 @@ impl<T: Scalar> Session<T> {
     /// Those of the operator and of [`Accuracy::plan`](asperity::accuracy::Accuracy::plan).
     pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
         let surface = self.surface()?;
-        let mut operator = self.scene.elastic.operator::<T>(*surface.grid())?;
+        let mut operator = self.facts.scene.elastic.operator::<T>(*surface.grid())?;
         let plan = goal.wanted(false).plan(&self.solver, &surface, &mut operator, &self.law, self.on_whole(control))?;
         Ok((plan, plan.applications * seconds_of(&mut operator)?))
     }
@@ -131,7 +158,7 @@ impl<T: Scalar> Session<T> {
     /// The solves of a search for the pull-off, and the time that they are likely to take, before the first of them.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`](crate::Elastic::operator) and of the operator.
+    /// Those of the body and the operator.
     pub fn announce_pull_off(&self, refines: bool) -> Result<String> {
         let ((nx, ny), of_grid) = (self.grid.shape(), self.law.hints().of_grid);
         let seconds = self.seconds_of_application()? * PULL_OFF * if of_grid { 1.25 } else { 1.0 };
@@ -161,7 +188,7 @@ impl<T: Scalar> Session<T> {
             true => self.other_branch(&found.solution, observe)?,
             false => None,
         };
-        let after = found.after(&asked.after, &self.scene.elastic)?;
+        let after = found.after(&asked.after, &self.facts.scene.elastic)?;
         Ok(Found { other_branch, after, ..found })
     }
 
@@ -170,7 +197,7 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the surface.
     pub(super) fn found(&self, solution: Solution<T>, clock: Instant) -> Result<Found<T>> {
-        Found::new(solution, self.law.clone(), self.original, clock)
+        Found::new(solution, self.law.clone(), self.facts.part.wanted(), clock)
     }
 
     /// A state on a course with the findings that are asked for after it.
@@ -178,7 +205,7 @@ impl<T: Scalar> Session<T> {
         let wanted = after.stiffness && check_finite(&found.solution).is_ok();
         let stiffness = if wanted { self.stiffness(&found.solution)? } else { None };
         let found = Found { stiffness, ..found };
-        let after = found.after(after, &self.scene.elastic)?;
+        let after = found.after(after, &self.facts.scene.elastic)?;
         Ok(Found { after, ..found })
     }
 
@@ -226,14 +253,14 @@ impl<T: Scalar> Session<T> {
             let wanted = goal.map_or_else(told, |goal| goal.wanted(false));
             let surface = self.surface()?;
             let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
-            let elastic = |grid| self.scene.elastic.operator(grid);
+            let elastic = |grid| self.facts.scene.elastic.operator(grid);
             let law = Arc::clone(&self.law);
             let found = wanted.pull_off_observed(&mut self.solver, &surface, elastic, law, &asked, observe)?;
             let last = self.found(found.found.solution.clone(), clock)?;
             let pulled_off = PulledOff::of(asked, &found.found, &last.part()?.report, Ok(&found), goal);
             if let Err(Untold::FewNodes { nodes, needed, bytes }) = found.error {
                 let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
-                self.warnings.add_of_input(vec![self.units.told(&few)])?;
+                self.warnings.add_of_input(vec![self.facts.units.told(&few)])?;
             }
             return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off));
         }

@@ -23,7 +23,7 @@ impl<T: Scalar> Session<T> {
     pub(super) fn by_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), self.surface()?);
         let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
-        let elastic = |grid| self.scene.elastic.operator(grid);
+        let elastic = |grid| self.facts.scene.elastic.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
         let found = wanted.solve_observed(
             &mut self.solver,
@@ -72,7 +72,7 @@ impl<T: Scalar> Session<T> {
             .solve_observed(
                 &mut self.solver,
                 surface,
-                |grid| self.scene.elastic.operator(grid),
+                |grid| self.facts.scene.elastic.operator(grid),
                 Arc::clone(&self.law),
                 control,
                 |grid: &Grid, state: &Iteration| {
@@ -95,7 +95,7 @@ impl<T: Scalar> Session<T> {
         observe: Observe<'_>,
     ) -> Result<Found<T>> {
         let clock = Instant::now();
-        let presses_again = self.scene.adhesion.yields() && matches!(self.body, Body::Problem(_));
+        let presses_again = self.facts.scene.adhesion.yields() && matches!(self.body, Body::Problem(_));
         let (solver, problem) = self.parts()?;
         if presses_again {
             problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
@@ -137,7 +137,7 @@ impl<T: Scalar> Session<T> {
     /// The solution on the other branch of equilibria, if the solution has a branch.
     pub(super) fn other_branch(&mut self, solution: &Solution<T>, observe: Observe<'_>) -> Result<Option<OtherBranch>> {
         let Some(branch) = solution.report.branch else { return Ok(None) };
-        let original = self.original;
+        let original = self.facts.part.wanted();
         let (solver, problem) = self.parts()?;
         let settings = solver.settings;
         let (grid, tolerance) = (*problem.grid(), settings.tolerance_in::<T>());

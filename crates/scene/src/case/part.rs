@@ -4,10 +4,8 @@ use std::borrow::Cow;
 
 use asperity::contact::Original;
 use asperity::{Grid, Real, Result, Solution, elastic};
-use asperity_scene::Boundary;
 use ndarray::Array2;
 
-use crate::heights::Origin;
 use crate::outcome::Outcome;
 
 /// The part of a map on its grid.
@@ -22,21 +20,19 @@ pub struct Part {
 
 impl Part {
     /// All of a map without mirror images.
-    pub fn all(grid: Grid) -> Self {
+    pub(crate) fn all(grid: Grid) -> Self {
         Self { whole: grid, is_mirrored: false, is_whole: true, original: None }
     }
 
-    /// The original of a mirrored map, unless the whole is asked for, or with a free boundary the images belong
-    /// to the body.
-    pub fn of(origin: &Origin, grid: Grid, boundary: Boundary, whole: bool) -> Outcome<Self> {
-        let is_whole = whole || boundary != Boundary::Periodic;
-        let is_mirrored = origin.original.is_some();
+    /// The original of a mirrored map, with its nodes, unless the whole is asked for.
+    pub(super) fn of(original: Option<(usize, usize)>, grid: Grid, is_whole: bool) -> Outcome<Self> {
+        let is_mirrored = original.is_some();
         if is_mirrored && !is_whole && grid.is_shared() {
             let text = "the original of a mirrored map has no form for several processes: give --whole for results on \
                         all nodes, or solve in one process";
             return Err(text.into());
         }
-        let nodes = origin.original.filter(|_| !grid.is_shared());
+        let nodes = original.filter(|_| !grid.is_shared());
         let original = nodes.map(|nodes| Original::new(&grid, nodes)).transpose()?;
         Ok(Self { whole: grid, is_mirrored, is_whole, original })
     }
