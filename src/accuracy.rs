@@ -20,6 +20,7 @@ mod goal;
 mod loops;
 mod pull_off;
 mod refine;
+mod refinement;
 mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
@@ -44,6 +45,19 @@ pub enum Quantity {
 }
 
 names!(Quantity { Area = "area", Gap = "gap", Approach = "approach", Pressure = "pressure" });
+
+/// The factors of an error without adhesion.
+struct Factors {
+    /// Of the difference to a coarser grid.
+    difference: f64,
+    /// Of the change of the counted area to that grid.
+    edge: f64,
+    /// Of the power of the nodes in the shortest wave, and that power.
+    waves: f64,
+    order: f64,
+    /// Of the inverse square of the nodes in the shortest wave, in the estimate to be expected.
+    expected: f64,
+}
 
 impl Quantity {
     /// All of them.
@@ -116,36 +130,38 @@ impl Quantity {
         if !(value.is_finite() && coarser.is_finite()) || value == 0.0 {
             return None;
         }
-        let difference = (value - coarser) / value;
-        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
+        let factors = self.factors_on(fine.shape.0 == 1 || fine.shape.1 == 1);
+        let difference = factors.difference * ((value - coarser) / value);
         if self == Self::Area {
-            let share = if line { 0.5 } else { 0.25 };
-            return Some((share * difference).hypot(places).hypot(adhesion));
+            return Some(difference.hypot(places).hypot(adhesion));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
-        let (share, of_edge) = if line { (1.0 / 3.0, 0.02) } else { (0.15, 0.001) };
-        Some((share * difference).hypot(of_edge * edge))
+        Some(difference.hypot(factors.edge * edge))
+    }
+
+    /// The factors on a plane, or on a line.
+    fn factors_on(self, line: bool) -> Factors {
+        let [difference, edge, waves, order, expected] = match (self, line) {
+            (Self::Area, false) => [0.25, 0.0, 0.6, 2.0, 0.3],
+            (Self::Area, true) => [0.5, 0.0, 5.0, 2.0, 0.6],
+            (Self::Gap | Self::Approach, false) => [0.15, 0.001, 0.4, 3.0, 0.05],
+            (Self::Gap | Self::Approach, true) => [1.0 / 3.0, 0.02, 0.4, 3.0, 0.05],
+            (Self::Pressure, false) => [0.15, 0.001, 1.0, 3.0, 0.1],
+            (Self::Pressure, true) => [1.0 / 3.0, 0.02, 1.0, 3.0, 0.1],
+        };
+        Factors { difference, edge, waves, order, expected }
     }
 
     /// The relative error by the number of nodes in the shortest wave alone.
     fn by_waves(self, nodes_per_wave: f64, line: bool) -> f64 {
-        let (share, order) = match self {
-            Self::Area => (if line { 5.0 } else { 0.6 }, 2.0),
-            Self::Gap | Self::Approach => (0.4, 3.0),
-            Self::Pressure => (1.0, 3.0),
-        };
-        share * nodes_per_wave.powf(-order)
+        let Factors { waves, order, .. } = self.factors_on(line);
+        waves * nodes_per_wave.powf(-order)
     }
 
     /// The estimate to be expected with so many nodes in the shortest wave, by the estimates of rough surfaces: with
     /// an adhesion in the limit of no range, by their median.
     fn expected(self, nodes_per_wave: f64, adhesion: f64, line: bool) -> f64 {
-        let without = match self {
-            Self::Area if line => GridError::COVER * 0.6 / nodes_per_wave.powi(2),
-            Self::Area => GridError::COVER * 0.3 / nodes_per_wave.powi(2),
-            Self::Gap | Self::Approach => GridError::COVER * 0.05 / nodes_per_wave.powi(2),
-            Self::Pressure => GridError::COVER * 0.1 / nodes_per_wave.powi(2),
-        };
+        let without = GridError::COVER * self.factors_on(line).expected / nodes_per_wave.powi(2);
         // the range over the gap that surfaces without adhesion have a node away from the edge
         let zone = ((13.0 * adhesion).sqrt() * nodes_per_wave).min(1.0);
         let with = if self == Self::Area { 0.7 } else { 0.3 } / nodes_per_wave;

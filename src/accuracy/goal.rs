@@ -1,17 +1,17 @@
 use std::ops::ControlFlow;
 
-use super::refine::{is_of_interpolation, overshoots, refined, twice};
+use super::refine::twice;
 use super::{GridError, Quantity, adhesion, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Deformed, GridObserver, Level, Nested, Touching, equivalent_applications};
-use crate::problem::{Control, Problem};
+use crate::nested::{Level, Nested, equivalent_applications};
+use crate::problem::Control;
 use crate::real::Real;
 use crate::setters::setters;
-use crate::solver::{Begin, Iteration, Settings, Solution, Solved, Solver, Status};
+use crate::solver::{Iteration, Settings, Solution, Solver};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -274,80 +274,5 @@ impl Accuracy {
         }
         let (wanted, law) = (Self { nested, ..*self }, SharedLaw::new(law));
         solver.to(tolerance, |solver| T::refine(&wanted, solver, surface, &mut operators, &law, control, &mut observe))
-    }
-
-    pub(crate) fn refine<T: Real>(
-        &self,
-        solver: &mut Solver<dyn ContactConstraint<T>>,
-        surface: &Surface,
-        operators: &mut dyn OnGrids<T>,
-        law: &SharedLaw<T>,
-        control: Control,
-        observe: GridObserver<'_>,
-    ) -> Result<AccurateSolution<T>> {
-        let mut refinable = is_refinable(surface, &**law);
-        let given_law = law;
-        'given: loop {
-            let mut law = given_law.clone();
-            let (Solved { mut solution, mut whole, .. }, mut levels) =
-                self.nested.run(solver, Box::new(surface), operators, &law, control, &mut *observe)?;
-            self.of.check_in(solution.report.boundary)?;
-            let periodic = solution.report.boundary == Boundary::Periodic;
-            let mut waves = surface.nodes_per_wave(solution.report.boundary);
-            let (mut surface, given) = (surface.clone(), surface.grid().shape());
-            // the adhesion of a law with the range of the grid, or of a law that the grid does not resolve, changes
-            // with the grid too
-            let resolved = !law.hints().of_grid && resolves_adhesion(solution.report.mu_rho, 1.0);
-            let (error, reached, unaffordable) = loop {
-                let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
-                let report = &solution.report;
-                let enough = |error: &GridError| error.relative + report.relative_error <= self.target;
-                let converged = report.status == Status::Converged;
-                if !converged || !refinable || error.as_ref().is_some_and(enough) {
-                    break (error, converged && error.as_ref().is_some_and(enough), None);
-                }
-                let shape = twice(surface.grid().shape());
-                // the operator's grid grows as the grid of the surface
-                let nodes = whole.as_ref().map_or(surface.grid(), |(grid, _)| grid).nodes() as f64;
-                let bytes = 8.0 * NUMBERS * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
-                if bytes > self.memory {
-                    break (error, false, Some((shape, bytes)));
-                }
-                let fine = refined(&surface, periodic)?;
-                if !resolved && overshoots(&fine, &surface) {
-                    refinable = false;
-                    break (error, false, None);
-                }
-                law = on_twice(law, &surface, &fine);
-                if law.hints().touches() {
-                    // what touches on this grid at its adhesion may not touch on a finer one, and would stick there
-                    (Solved { solution, whole, .. }, levels) =
-                        self.nested.run(solver, Box::new(&fine), operators, &law, control, &mut *observe)?;
-                    (surface, waves) = (fine, 2.0 * waves);
-                    continue;
-                }
-                let half_space = operators.on(*fine.grid())?;
-                let touching = Touching::of(solver.constraint.wall(), &*law);
-                let coarse = Deformed::of(&surface, solution.gap, whole);
-                let start = coarse.prolonged(&fine, half_space.grid(), touching);
-                let mut problem = Problem::of(&fine, half_space, law.clone())?;
-                let grid = *fine.grid();
-                let begin = Begin::Prolonged(start);
-                Solved { solution, whole, .. } =
-                    solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
-                let stiffness = self.nested.stiffness_of(solver, &mut problem, &solution)?;
-                levels.push(Level { stiffness, ..Level::of(&solution)? });
-                if let [.., before, level] = &levels[..]
-                    && resolved
-                    && surface.grid().shape() == given
-                    && is_of_interpolation(level, before)
-                {
-                    refinable = false;
-                    continue 'given;
-                }
-                (surface, waves) = (fine, 2.0 * waves);
-            };
-            return Ok(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable });
-        }
     }
 }
