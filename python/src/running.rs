@@ -79,7 +79,7 @@ pub struct At<'py> {
 }
 
 /// Does `work` on a thread of its own, with the shared pool, and returns its result; or at once the exception of a signal,
-/// as of Ctrl-C, after which the work is told not to continue, and its result is dropped.
+/// as by Ctrl-C, after which the work is told not to continue, and its result is dropped.
 pub fn until_interrupted<R: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(GoesOn<'_>) -> R + Send + 'static,
