@@ -282,8 +282,8 @@ fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_s
     let iterations = account.iterations;
     for (status, relative_error, load_error, errors, remedy) in [
         (Status::Stalled, 1.2e-14, 1.0, "load error 1.0e0", "try another {initial_gap}, or hold a {mean_gap}"),
-        (Status::Stalled, 1e-3, 1.0, "error 1.0e-3 and load error 1.0e0", "use a larger {tolerance}, or another"),
-        (Status::Stalled, 1e-3, 0.0, "error 1.0e-3", "use a larger {tolerance}, or another {initial_gap}"),
+        (Status::Stalled, 1e-3, 1.0, "error 1.0e-3 and load error 1.0e0", "raise {tolerance}, or give another"),
+        (Status::Stalled, 1e-3, 0.0, "error 1.0e-3", "raise {tolerance}, or give another {initial_gap}"),
         (Status::IterationLimit, 1e-3, 0.0, "error 1.0e-3", "raise {max_iterations}, or give a gap"),
         (Status::Detached, 1e-9, 0.0, "error 1.0e-9", "follow the branch by {cycle:mean_gaps}"),
     ] {
