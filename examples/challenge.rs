@@ -46,10 +46,13 @@ struct Arguments {
     /// Take the branch of unloading as well, from full contact
     #[arg(long)]
     unloading: bool,
+    /// Solve under the load of reference without a range alone
+    #[arg(long)]
+    jkr: bool,
 }
 
 fn main() -> Outcome<()> {
-    let Arguments { size, file, unloading } = arguments::read(include_str!("challenge.rs"));
+    let Arguments { size, file, unloading, jkr } = arguments::read(include_str!("challenge.rs"));
     let surface = match &file {
         Some(file) => given(file, size)?,
         None => drawn(size)?,
@@ -67,6 +70,9 @@ fn main() -> Outcome<()> {
         "{:>7} {:>12} {:>8} {:>7} {:>9} {:>7} {:>8} {:>6} {:>7} {:>7}",
         "p/E*", "adhesion", "area, %", "error", "gap, nm", "error", "certif.", "mu_rho", "applic.", "s"
     );
+    if jkr {
+        return Row::of(&surface, Jkr::new(WORK_OF_ADHESION)?, PRESSURES[2], None).map(drop);
+    }
     for pressure in PRESSURES {
         rows.push(Row::of(&surface, NoAdhesion, pressure, None)?);
         rows.push(Row::of(&surface, law, pressure, Some(Branch::Loading))?);

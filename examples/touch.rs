@@ -113,7 +113,8 @@ impl Loop {
 
     /// The limit on a grid that has a coarser one.
     fn limit(&self, k: usize) -> Option<Limit> {
-        let Limit { value, error } = LoopLimit::of(&self.ends[k], &self.ends[k.checked_sub(1)?]).work;
+        let (n, coarse) = (self.nodes[k], &self.ends[k.checked_sub(1)?]);
+        let Limit { value, error } = LoopLimit::of((n, n), &self.ends[k], coarse).work;
         Some(Limit { value: value / self.unit, error: error / self.unit })
     }
 

@@ -17,6 +17,7 @@ use crate::stability::EdgeError;
 use crate::surface::{Surface, mirror};
 
 mod goal;
+mod loop_grid;
 mod loops;
 mod pull_off;
 mod refine;
@@ -24,6 +25,7 @@ mod refinement;
 mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
+pub use loop_grid::LoopGrid;
 pub use loops::{Limit, LoopLimit};
 pub use pull_off::{AccuratePullOff, Untold};
 
@@ -42,9 +44,20 @@ pub enum Quantity {
     Approach,
     /// The mean external pressure, where it is not given.
     Pressure,
+    /// The work that a loop of loads takes, [`LoopLimit::work`].
+    Work,
+    /// The greatest tension on a loop of loads, [`LoopLimit::tension`].
+    Tension,
 }
 
-names!(Quantity { Area = "area", Gap = "gap", Approach = "approach", Pressure = "pressure" });
+names!(Quantity {
+    Area = "area",
+    Gap = "gap",
+    Approach = "approach",
+    Pressure = "pressure",
+    Work = "work",
+    Tension = "tension",
+});
 
 /// The factors of an error without adhesion.
 struct Factors {
@@ -60,8 +73,11 @@ struct Factors {
 }
 
 impl Quantity {
-    /// All of them.
+    /// The quantities of a solution.
     pub const ALL: [Self; 4] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure];
+
+    /// The quantities of a loop.
+    pub const OF_LOOPS: [Self; 2] = [Self::Work, Self::Tension];
 
     /// Refuses a quantity that a control gives instead of finding it.
     ///
@@ -83,6 +99,9 @@ impl Quantity {
             (Self::Pressure, Control::MeanPressure(_) | Control::Force(_)) => {
                 ("accuracy of the pressure", "it is given: ask for that of the gap, or of the area")
             }
+            (Self::Work | Self::Tension, _) => {
+                ("accuracy of a loop", "a solution under one load has none: ask for the accuracy of the area")
+            }
             _ => return Ok(()),
         };
         Err(Error::Unsuited { what, reason })
@@ -103,6 +122,7 @@ impl Quantity {
             Self::Gap => level.mean_gap,
             Self::Approach => level.approach?,
             Self::Pressure => level.mean_pressure,
+            Self::Work | Self::Tension => return None,
         })
     }
 
@@ -111,7 +131,7 @@ impl Quantity {
         let stiffness = level.stiffness?;
         let edge = stiffness.edge?;
         let error = match self {
-            Self::Area => return None,
+            Self::Area | Self::Work | Self::Tension => return None,
             Self::Gap => edge.gap / level.mean_gap,
             Self::Approach => edge.gap / level.approach?,
             Self::Pressure => edge.gap * stiffness.pressure_per_length / level.mean_pressure,
@@ -148,6 +168,7 @@ impl Quantity {
             (Self::Gap | Self::Approach, true) => [1.0 / 3.0, 0.02, 0.4, 3.0, 0.05],
             (Self::Pressure, false) => [0.15, 0.001, 1.0, 3.0, 0.1],
             (Self::Pressure, true) => [1.0 / 3.0, 0.02, 1.0, 3.0, 0.1],
+            (Self::Work | Self::Tension, _) => [f64::INFINITY; 5],
         };
         Factors { difference, edge, waves, order, expected }
     }

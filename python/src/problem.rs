@@ -157,9 +157,10 @@ impl Problem {
         keywords: Vec<Bound<'py, PyDict>>,
         start: Option<Begin<'py>>,
         table: (Option<u64>, Option<File<'py>>),
+        observe: Option<Py<PyAny>>,
     ) -> PyResult<(Columns<'py>, usize)> {
         let known = match way {
-            "cycle" => known!(LoadsKeys, PathKeys),
+            "cycle" => known!(LoadsKeys, PathKeys, CycleAccuracyKeys),
             "interface" => known!(LoadsKeys, ConductorKeys, LeakageKeys),
             _ => known!(LoadsKeys, FractionsKeys, StiffnessKeys, ConductorKeys, LeakageKeys),
         };
@@ -174,14 +175,18 @@ impl Problem {
                 "boundary is 'free': an interface has its law per area of a periodic cell",
             ));
         }
-        let at = self.at(py, None)?;
+        let at = self.at(py, observe)?;
         let (full, count) = (self.full_pressure(&at, &loads)?, loads.len());
+        let goal = case.given().cycle_goal().map_err(reason)?;
         let way = match way {
             "cycle" => Way::cycle(&loads, full, case.given().path()).map_err(reason)?,
             _ => Way::sweep(&loads, full),
         };
         either!(session = self.session() => {
             session.seed = table.0;
+            if let Some(goal) = goal {
+                state::refine(session, &at, (&way, goal), start.is_some())?;
+            }
             Ok((state::begin(session, &at, (way, after, is_interface), start, table.1)?, count))
         })
     }

@@ -65,14 +65,32 @@ pub fn solve<'py, T: Scalar>(
         let session = &mut *session;
         let plan = at.pool.install(at.py, move || session.plan(asked.control, goal)).map_err(refusal)?;
         let (plan, seconds) = planned.insert(plan);
-        let log = at.py.import("logging")?.call_method1("getLogger", ("asperity",))?;
-        log.call_method1("info", (goal.announced(plan, *seconds),))?;
+        log(at, goal.announced(plan, *seconds))?;
     }
     let (solved, raised) = at.run(|observe, _| session.solve(asked, start, &mut |_, state, _| observe(state)))?;
     let found = answer(at, solved.map(|solved| (solved.found, solved.account)), raised)?;
     let of = planned.map(|(plan, seconds)| (plan.nodes_per_wave, plan.tolerance, plan.shape, plan.bytes, seconds));
     found.set_item("plan", of)?;
     Ok(found)
+}
+
+/// Says a plan by the logger `asperity`.
+fn log(at: &At<'_>, plan: String) -> PyResult<()> {
+    let log = at.py.import("logging")?.call_method1("getLogger", ("asperity",))?;
+    log.call_method1("info", (plan,)).map(drop)
+}
+
+/// Puts a session on the grid on which a cycle is likely to have an accuracy, which the logger `asperity` says.
+pub fn refine<T: Scalar>(
+    session: &mut Session<T>,
+    at: &At<'_>,
+    (way, goal): (&Way, Goal),
+    is_started: bool,
+) -> PyResult<()> {
+    let (chosen, raised) =
+        at.run(|observe, _| session.refine(way, goal, is_started, &mut |_, state, _| observe(state)))?;
+    raised.map_or(Ok(()), Err)?;
+    log(at, chosen.map_err(refusal_of_session)?)
 }
 
 /// The pull-off, with the last state that holds.
@@ -150,7 +168,8 @@ pub fn next<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<
 pub fn cycle_limit<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
     let (found, raised) = at.run(|observe, _| session.cycle_limit(observe))?;
     raised.map_or(Ok(()), Err)?;
-    found.map_err(refusal_of_session)?.map(|limit| Ok(to_pyobject(at.py, &limit)?)).transpose()
+    let Some(limit) = found.map_err(refusal_of_session)? else { return Ok(None) };
+    Ok(Some(to_pyobject(at.py, &(limit.shortfall(Skin::Keywords), limit))?))
 }
 
 /// The seconds that are left of a cycle, and its pace in words.

@@ -88,6 +88,11 @@ KEYS = {
         "smallest_step": 'float | None = None',
         "imbalance": 'float | None = 0.0001',
     },
+    "CycleAccuracy": {
+        "accuracy": 'float | None = None',
+        "accuracy_of": 'Literal["work", "tension"] | None = None',
+        "memory": 'float | None = None',
+    },
     "PullOff": {
         "preload": 'Quantity | None = None',
         "rtol": 'float | None = 0.02',

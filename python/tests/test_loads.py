@@ -1,5 +1,6 @@
 """Many loads: sweeps and cycles, and their columns."""
 
+import logging
 import pickle
 
 import numpy as np
@@ -79,6 +80,33 @@ def test_a_cycle_without_a_range_has_its_limits():
     assert pickle.loads(pickle.dumps(cycle)).limit == limit
     wave, law = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64), asperity.Exponential(1e-3, 8e-3)
     assert asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.07], steps=1).limit is None
+
+
+def test_a_cycle_has_the_accuracy_that_is_asked_for(caplog):
+    tip = asperity.surface.paraboloid(32, 0.7, radius=2.0)
+    keys = {"modulus": 1.0, "law": asperity.JKR(5e-5), "boundary": "free", "approaches": [-8e-3, 6e-3, -20e-3]}
+    with caplog.at_level(logging.INFO, "asperity"):
+        cycle = asperity.cycle(tip, accuracy=0.05, accuracy_of="tension", **keys)
+    nodes = next(cycle).solution.heights.shape[0]
+    assert nodes > 32 and f"accuracy 0.05 of the tension: {nodes} x {nodes} nodes" in caplog.text
+    limit = cycle.limit
+    assert limit.accuracy == {"wanted": 0.05, "of": "tension", "reached": True}
+    assert limit.tension_error < 0.05 * limit.tension
+    assert [level["shape"][0] for level in limit.levels] == [2**k for k in range(4, nodes.bit_length())]
+    assert limit.levels[-1]["work"] == cycle.columns["work"][-1]
+    with pytest.raises(ValueError, match="known of the law jkr alone"):
+        asperity.cycle(tip, accuracy=0.1, **{**keys, "law": asperity.Exponential(5e-5, 1e-3)})
+    with pytest.raises(ValueError, match="an accuracy makes its own start"):
+        asperity.cycle(tip, accuracy=0.1, start=np.full((32, 32), 0.1), **keys)
+
+
+def test_a_cycle_from_a_start_has_its_limits():
+    wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
+    keys = {"modulus": 1.0, "law": asperity.JKR(5e-5), "mean_gaps": [0.01, 0.08]}
+    pressed = asperity.solve(wave, 1.0, modulus=1.0, law=keys["law"], mean_gap=0.01)
+    from_start, from_afar = (asperity.cycle(wave, 1.0, start=start, **keys).limit for start in (pressed, None))
+    assert np.isclose(from_start.work, from_afar.work, rtol=1e-2)
+    assert [tuple(level["shape"]) for level in from_start.levels] == [(32, 1), (64, 1)]
 
 
 def test_loads_that_are_refused(rough):

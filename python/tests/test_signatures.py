@@ -37,7 +37,7 @@ METHODS = {
         ("Loads", "Fractions", "Stiffness", "Conductor", "Leakage", "start", "observe", "out", "force", "springs", "fields"),
         (),
     ),
-    "cycle": (("Loads", "Path", "start", "observe", "out", "force", "springs", "smooth", "fields"), ()),
+    "cycle": (("Loads", "Path", "CycleAccuracy", "start", "observe", "out", "force", "springs", "smooth", "fields"), ()),
     "interface": (
         ("Loads", "Conductor", "Leakage", "start", "observe", "out", "force"),
         ("normal_forces", "approaches", "spring_stiffness", "spring_positions"),

@@ -33,7 +33,7 @@ pub(super) const NUMBERS: f64 = 12.0;
 const APPLICATIONS: f64 = 40.0;
 
 /// The factor by which expected errors may be too large where an accuracy is refused.
-const DOUBT: f64 = 3.0;
+pub(super) const DOUBT: f64 = 3.0;
 
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
@@ -117,6 +117,12 @@ impl<T: Real> AccurateSolution<T> {
 pub(super) fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
     let known = law.hints().shape.is_none() || law.adapted(Discretisation::Fine(2, 2)).is_some();
     surface.absent().is_none() && known && surface.grid().nodes() > 1
+}
+
+/// The law of a surface on the grid of a coarser one.
+pub(super) fn on_coarse<T: Real>(law: &SharedLaw<T>, surface: &Surface, coarse: &Surface) -> SharedLaw<T> {
+    let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
+    law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).map_or_else(|| law.clone(), SharedLaw)
 }
 
 /// The law of a surface on the grid of a finer one.

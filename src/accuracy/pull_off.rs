@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use super::goal::{NUMBERS, is_refinable, on_twice};
+use super::goal::{NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, GridError, adhesion, observed_order};
-use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw};
+use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
 use crate::contact::{Clusters, ContactArea};
 use crate::elastic::{Boundary, OnGrids};
@@ -262,10 +262,8 @@ impl Accuracy {
         if hints.of_grid && !hints.zero {
             let coarse = coarsened(surface, self.nested.coarsest, hints.shape.is_none())?.into_iter().next();
             if let Some(coarse) = &coarse {
-                let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
-                let on_coarse = law.adapted(Discretisation::Coarse(nx / cx, ny / cy));
                 // what cannot be found there, or is of a few nodes, says nothing of the finer grid
-                let found = find(coarse, on_coarse.map_or_else(|| law.clone(), SharedLaw)).ok();
+                let found = find(coarse, on_coarse(law, surface, coarse)).ok();
                 let found = found.filter(|(found, ..)| found.reached && 4.0 * found.bearing_nodes() >= LEAST_NODES);
                 levels.extend(found.and_then(|(_, level, ..)| level));
             }

@@ -29,6 +29,7 @@ impl Quantity {
             Self::Gap => of(level.mean_gap, 1.0, length),
             Self::Approach => of(level.approach?, -1.0, length),
             Self::Pressure => of(level.mean_pressure, 1.0, work * zone / level.mean_gap),
+            Self::Work | Self::Tension => return None,
         };
         Some(told).filter(|told| told.limit.is_finite())
     }
@@ -40,7 +41,7 @@ impl Quantity {
             Self::Area => [0.7, 1.4, 1.7],
             Self::Gap => [4.0, 4.0, 7.5],
             Self::Approach => [2.5, 1.5, 3.75],
-            Self::Pressure => [6.0, 3.0, 15.0],
+            _ => [6.0, 3.0, 15.0],
         }
     }
 

@@ -1,8 +1,9 @@
 //! Loops by the law without a range, with known limits: what loops dissipate, and where surfaces touch and part.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use asperity::accuracy::{Limit, LoopLimit};
+use asperity::accuracy::{Accuracy, Limit, LoopGrid, LoopLimit, Quantity};
 use asperity::exact::AdhesiveWavyLine;
 use asperity::path::{Event, Path, PathEnd, PathSettings};
 use asperity::*;
@@ -77,7 +78,7 @@ fn converges((name, exact): (&str, f64), height: impl Fn(f64) -> f64, loads: [Co
     assert_eq!(found[2].1, ["touch", "pull-off"], "{name}");
     let ends = found.map(|(end, _)| end);
     let [coarse, medium, fine] = ends.map(|end| end.work / exact);
-    let Limit { value, error } = LoopLimit::of(&ends[2], &ends[1]).work;
+    let Limit { value, error } = LoopLimit::of((96, 96), &ends[2], &ends[1]).work;
     println!("| {name} | {coarse:.3} | {medium:.3} | {fine:.3} | {:.3} | {:.3} |", value / exact, error / exact);
     let errors = [coarse, medium, fine].map(|energy| (energy - 1.0).abs());
     assert!(errors[2] < most, "{name}: {errors:?}");
@@ -86,8 +87,8 @@ fn converges((name, exact): (&str, f64), height: impl Fn(f64) -> f64, loads: [Co
         let order = (pair[0] / pair[1]).log2();
         assert!((0.6..1.5).contains(&order) || pair[1] < 0.01, "{name}: order {order}, {errors:?}");
     }
-    for pair in ends.windows(2) {
-        let Limit { value, error } = LoopLimit::of(&pair[1], &pair[0]).work;
+    for (n, pair) in [48, 96].into_iter().zip(ends.windows(2)) {
+        let Limit { value, error } = LoopLimit::of((n, n), &pair[1], &pair[0]).work;
         assert!((value - exact).abs() < error && error < told * exact, "{name}: {} ± {}", value / exact, error / exact);
     }
 }
@@ -110,6 +111,57 @@ fn loops_of_bodies_dissipate_what_theories_say() {
     let (a, loads) = (0.25_f64, [-0.02, 0.005, -0.2].map(Control::Approach));
     let punch = |r: f64| if r < a { 0.0 } else { -1.0 };
     converges(("flat punch at fixed grips", 2.0 * PI * a * a * WORK), punch, loads, 0.12, 0.2);
+}
+
+/// The loop of a sphere of radius 1.5 at fixed grips, and the grid on which it has an accuracy.
+fn accurate(wanted: Accuracy, n: usize, law: Arc<dyn AdhesionLaw<f64>>) -> Result<LoopGrid<f64>> {
+    let sphere = round(n, |r| -r * r / 3.0);
+    let mut half_space = Boussinesq::new(*sphere.grid(), 1.0)?;
+    let follow = |surface: &Surface, law: &Arc<dyn AdhesionLaw<f64>>| follow_on(surface, law.clone()).map(Some);
+    Ok(wanted.loop_grid(&sphere, &mut half_space, law, follow)?.expect("no loop is ended"))
+}
+
+fn follow_on(surface: &Surface, law: Arc<dyn AdhesionLaw<f64>>) -> Result<PathEnd> {
+    let mut problem = Problem::new(surface, Boussinesq::<f64>::new(*surface.grid(), 1.0)?, law)?;
+    Ok(follow(&mut problem, &[-0.02, 0.015, -0.1].map(Control::Approach)).0)
+}
+
+#[test]
+fn a_loop_has_the_accuracy_that_is_asked_for() {
+    let (jkr, tension): (Arc<dyn AdhesionLaw<f64>>, f64) = (Arc::new(Jkr::new(WORK).unwrap()), 1.5 * PI * WORK * 1.5);
+    for (of, target, exact) in [(Quantity::Work, 0.08, sphere(1.5).dissipated(0.0)), (Quantity::Tension, 0.04, tension)]
+    {
+        let found = accurate(Accuracy::new(target, of), 48, jkr.clone()).unwrap();
+        let shapes: Vec<_> = found.levels.iter().map(|(shape, _)| shape.0).collect();
+        assert!(shapes.starts_with(&[24]) && found.surface.grid().shape().0 > 48, "{of}: {shapes:?}");
+        assert!(found.expected <= target && found.refinable, "{of}: {}", found.expected);
+        let end = follow_on(&found.surface, found.law).unwrap();
+        let limit = LoopLimit::of(found.surface.grid().shape(), &end, &found.levels.last().unwrap().1).get(of);
+        assert!(limit.relative_error() <= target, "{of}: {limit:?}");
+        assert!((limit.value - exact).abs() < limit.error, "{of}: {limit:?}, {exact}");
+    }
+}
+
+#[test]
+fn an_accuracy_of_a_loop_that_cannot_be_had_is_refused() {
+    let jkr: Arc<dyn AdhesionLaw<f64>> = Arc::new(Jkr::new(WORK).unwrap());
+    let wanted = |target, of| Accuracy::new(target, of);
+    let refused = |wanted, n, law: &Arc<dyn AdhesionLaw<f64>>| accurate(wanted, n, law.clone()).err().unwrap();
+    let exponential: Arc<dyn AdhesionLaw<f64>> = Arc::new(Exponential::new(WORK, 2e-3).unwrap());
+    let of_a_range = refused(wanted(0.1, Quantity::Work), 32, &exponential).to_string();
+    assert!(of_a_range.contains("take that, or leave out the accuracy"), "{of_a_range}");
+    let of_a_state = refused(wanted(0.1, Quantity::Area), 32, &jkr).to_string();
+    assert!(of_a_state.contains("it is of the work, or of the tension"), "{of_a_state}");
+    let few = refused(wanted(0.1, Quantity::Work), 24, &jkr).to_string();
+    assert!(few.contains("16 nodes or more"), "{few}");
+    assert!(matches!(refused(wanted(-0.1, Quantity::Work), 32, &jkr), Error::Value { .. }));
+    let fine = refused(wanted(1e-3, Quantity::Work), 64, &jkr).to_string();
+    assert!(fine.contains("where in their steps the jumps are"), "{fine}");
+    let large = refused(wanted(1e-4, Quantity::Tension).memory(1e6), 64, &jkr);
+    let Error::Unaffordable { quantity: "tension", shape, bytes, affordable, .. } = large else { panic!("{large}") };
+    assert!(shape.0 > 1024 && bytes > 1e6 && affordable > 1e-4 && affordable.is_finite(), "{large}");
+    let of_a_solution = Quantity::Work.check(Control::Force(1.0)).unwrap_err().to_string();
+    assert!(of_a_solution.contains("ask for the accuracy of the area"), "{of_a_solution}");
 }
 
 #[test]

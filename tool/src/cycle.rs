@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use asperity_scene::legs::value;
 use asperity_scene::{
-    Account, AdhesionKeys, Chosen, CycleLimit, Load, LoadsKeys, PathKeys, Skin, SolverKeys, Step, SurfaceKeys,
-    UnitKeys, Way, key, unbalanced,
+    Account, AdhesionKeys, Chosen, CycleAccuracyKeys, CycleLimit, CycleLimits, Load, LoadsKeys, PathKeys, Session,
+    Skin, SolverKeys, Step, SurfaceKeys, UnitKeys, Way, key, unbalanced,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
@@ -15,7 +15,8 @@ use crate::columns::Columns;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::{PaperOptions, chart_of_columns, check_plot, write_picture};
-use crate::printing::{self, say, warn};
+use crate::printing::{self, in_options, say, warn};
+use crate::progress::Progress;
 use crate::quantity::{FORCE, PRESSURE};
 use crate::report::LAST;
 use crate::table::{Fill, Manner, Table, TableOptions, format_of};
@@ -32,7 +33,7 @@ use crate::units::Units;
 /// of the file. It has the columns of asperity sweep, the work of the load and the energy dissipated in jumps so far,
 /// the imbalance of energy (all per area), and the event on the way to it: touch, jump-in, jump-out, pull-off,
 /// limit-point, bifurcation. With jkr the same cycle on half as many nodes along the sides tells the limits of no range
-/// of the work and of the greatest tension, with their errors. With a hardness the surface keeps its plastic depth, and
+/// of the work and of the greatest tension, with their errors, and --accuracy chooses the grid by them. With a hardness the surface keeps its plastic depth, and
 /// the balance has the energy that yielding dissipates. The same command continues an interrupted cycle; for that it
 /// keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
 /// continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be
@@ -41,7 +42,7 @@ use crate::units::Units;
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    problem: Chosen<(SurfaceKeys, LoadsKeys, PathKeys, AdhesionKeys, SolverKeys)>,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, PathKeys, AdhesionKeys, SolverKeys, CycleAccuracyKeys)>,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -91,6 +92,17 @@ impl Fill for Options {
         Ok(Way::cycle(loads, full, self.problem.0.path())?)
     }
 
+    fn refine<T: Scalar>(&self, session: &mut Session<T>, way: &Way, is_started: bool) -> Outcome<()> {
+        let Some(goal) = in_options(self.problem.0.cycle_goal())? else { return Ok(()) };
+        let (printing, tolerance) = (self.manner.printing, session.scene().tolerance());
+        printing.say(&format!("accuracy {} of the {}: the cycle on coarser grids first", goal.accuracy, goal.of));
+        let mut progress = Progress::new("", tolerance, 0, printing.without_bars());
+        let chosen = session.refine(way, goal, is_started, &mut progress.on_grids());
+        drop(progress);
+        printing.say(&chosen?);
+        Ok(())
+    }
+
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         table.announce();
         while let Some(row) = table.extend()? {
@@ -98,8 +110,10 @@ impl Fill for Options {
             self.manner.printing.say(&format!("{:>4}  {}{event}", table.session.rows(), table.brief(&row.account)));
         }
         let limit = table.limit()?;
+        let shortfall = limit.as_ref().and_then(|limit| limit.shortfall(Skin::Options));
         self.conclude(table, limit)?;
-        Ok(table.converged("or --tolerance"))
+        let converged = table.converged("or --tolerance");
+        Ok(shortfall.map(warn).is_none() && converged)
     }
 }
 
@@ -110,10 +124,11 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limit: Option<CycleLimit>) -> Outcome<()> {
+    fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limits: Option<CycleLimits>) -> Outcome<()> {
         let (rows, units, free) = (&table.session.read()?, table.session.units(), table.is_free());
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
-        let followed = Followed { rows, units, free, axes: [x, y], limit };
+        let limit = limits.as_ref().map(|limits| limits.limit);
+        let followed = Followed { rows, units, free, axes: [x, y], limit, limits };
         self.manner.printing.report(|| table.report(followed.report()));
         if self.manner.printing.for_people() {
             say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
@@ -136,6 +151,7 @@ struct Followed<'a> {
     /// The columns along which the cycle is told
     axes: [&'static str; 2],
     limit: Option<CycleLimit>,
+    limits: Option<CycleLimits>,
 }
 
 impl Followed<'_> {
@@ -183,7 +199,7 @@ impl Followed<'_> {
         ]);
         found.extend(cells(&last, &of_cycle));
         found.insert(LAST.to_owned(), last);
-        found.extend(json!(self.limit).as_object().cloned().unwrap_or_default());
+        found.extend(json!(self.limits).as_object().cloned().unwrap_or_default());
         found.into()
     }
 

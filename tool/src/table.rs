@@ -6,7 +6,7 @@ use std::path::Path;
 use asperity::{Control, Error, Surface};
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    Account, After, Boundary, CycleLimit, Format, Load, Precision, Row, Scene, Session, Skin, TableFile, Way,
+    Account, After, Boundary, CycleLimits, Format, Load, Precision, Row, Scene, Session, Skin, TableFile, Way,
     shortfalls,
 };
 use clap::Args;
@@ -71,6 +71,11 @@ pub trait Fill {
         Ok(Way::sweep(loads, full))
     }
 
+    /// Puts the session on the grid of the way, before its first row.
+    fn refine<T: Scalar>(&self, _: &mut Session<T>, _: &Way, _: bool) -> Outcome<()> {
+        Ok(())
+    }
+
     /// The theories to draw next to the rows, if there are to be some.
     fn theories(&self, _: &Surface, _: &Scene) -> Outcome<Option<Theories>> {
         Ok(None)
@@ -123,6 +128,7 @@ impl<'a> TableOptions<'a> {
             processes.alone("a cycle with --boundary free")?;
         }
         let start = problem.start(&mut session, processes)?;
+        by.refine(&mut session, &way, start.is_some())?;
         let mut scene_file = None;
         processes.first(|| {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
@@ -201,13 +207,17 @@ impl<T: Scalar> Table<'_, T> {
         Ok(Some(row))
     }
 
-    /// The limit of no range of a complete cycle, where the same cycle on a coarser grid tells it, which a bar follows.
-    pub fn limit(&mut self) -> Outcome<Option<CycleLimit>> {
+    /// The limits of no range of a complete cycle, where the same cycle on a coarser grid tells them, which a bar follows if
+    /// it is ahead.
+    pub fn limit(&mut self) -> Outcome<Option<CycleLimits>> {
         let TableOptions { problem, manner, .. } = self.options;
-        let Some((nx, ny)) = self.session.coarser_shape() else { return Ok(None) };
-        manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
-        let tolerance = problem.case.scene().tolerance();
-        let mut progress = Progress::new("coarser", tolerance, nx * ny, manner.printing.without_bars());
+        let ahead = self.session.coarser_shape();
+        if let Some((nx, ny)) = ahead {
+            manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
+        }
+        let (tolerance, nodes) = (problem.case.scene().tolerance(), ahead.map_or(0, |(nx, ny)| nx * ny));
+        let is_quiet = manner.printing.without_bars() || ahead.is_none();
+        let mut progress = Progress::new("coarser", tolerance, nodes, is_quiet);
         self.session.cycle_limit(&mut |state| {
             progress.update(state);
             ControlFlow::Continue(())

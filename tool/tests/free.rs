@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use asperity_maps::io::read_field;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::bench::{Bench, text};
 
@@ -76,6 +76,13 @@ fn a_cycle_without_a_range_tells_its_limits() {
     let said = bench.said(&format!("{cycle} --out c.csv"));
     assert!(said.contains("16 x 16 nodes, for the error of the grid"), "{said}");
     assert_eq!(said.matches("in the limit").count(), 2, "{said}");
+    // a map of one hardness is that hardness, on the coarser grid too, and the gap of a start is that of its nodes
+    bench.write("hard.txt", &format!("{}\n", ["0.05"; 32].join(" ")).repeat(32));
+    let limit_of = |more: &str| number(&bench.reported(&format!("{cycle} --out c.csv --force {more}"))["work_limit"]);
+    assert_eq!(limit_of("--hardness-map hard.txt"), limit_of("--hardness 0.05"));
+    bench.said("solve --heights tip.npz --boundary free --approach=-8e-3 --quiet --out apart");
+    let [from_start, from_afar] = ["--initial-gap apart/gap.npy", ""].map(limit_of);
+    assert!((from_start / from_afar - 1.0).abs() < 1e-3, "{from_start} {from_afar}");
     // an odd number of nodes has no half on which a map of works of adhesion is known
     bench.said("surface --form paraboloid --radius 2 --size 33 --lengths 0.7 --quiet --out odd.npz");
     bench.write("works.txt", &format!("{}\n", ["5e-5"; 33].join(" ")).repeat(33));
@@ -83,6 +90,42 @@ fn a_cycle_without_a_range_tells_its_limits() {
         "cycle --heights odd.npz --boundary free --law jkr --work-of-adhesion-map works.txt --approaches=-8e-3,6e-3";
     let found = bench.reported(&format!("{odd} --out odd.csv"));
     assert!(found["work_limit"].is_null() && number(&found["work"]) < 0.0, "{found}");
+}
+
+#[test]
+fn a_cycle_to_an_accuracy_is_on_the_grid_that_it_takes() {
+    let bench = Bench::new();
+    for nodes in [32, 64] {
+        bench.said(&format!(
+            "surface --form paraboloid --radius 2 --size {nodes} --lengths 0.7 --quiet --out {nodes}.npz"
+        ));
+    }
+    let cycle = "cycle --boundary free --work-of-adhesion 5e-5 --approaches=-8e-3,6e-3,-20e-3";
+    let jkr = format!("{cycle} --heights 32.npz --accuracy 0.11 --law jkr --out c.csv");
+    let found = bench.reported(&jkr);
+    assert_eq!(found["accuracy"], json!({ "wanted": 0.11, "of": "work", "reached": true }));
+    let shapes: Vec<_> = found["levels"].as_array().unwrap().iter().map(|level| level["shape"][0].clone()).collect();
+    assert_eq!(shapes, [16, 32, 64]);
+    assert_eq!(found["levels"][2]["work"], found["work"]);
+    let [limit, error] = ["work_limit", "work_limit_error"].map(|name| number(&found[name]));
+    let exact = 1.2127e-6 / (0.7 * 0.7);
+    assert!((limit - exact).abs() < error && error < 0.11 * limit, "{limit} ± {error}, {exact}");
+    // again, it takes the same grid, and has its rows
+    let table = rows(&bench, "c.csv");
+    let said = bench.said(&jkr);
+    for part in ["64 x 64 nodes", "MiB, by the cycle on 16 x 16, 32 x 32; an error of", "rows already"] {
+        assert!(said.contains(part), "{said}");
+    }
+    assert!(rows(&bench, "c.csv") == table);
+    for (more, refused) in [
+        ("0.1 --law exponential --range 1e-3", "the error of the grid is known of the law jkr alone"),
+        ("0.1 --law jkr --hardness 1", "--accuracy and --hardness"),
+        ("0.05 --law jkr --memory 1e-6", "an accuracy of 0.05 of the work takes about"),
+        ("0.1 --law jkr --accuracy-of area", "work, tension"),
+    ] {
+        let said = bench.refused(&format!("{cycle} --heights 64.npz --out d.csv --quiet --accuracy {more}"));
+        assert!(said.contains(refused), "{said}");
+    }
 }
 
 #[test]

@@ -43,7 +43,7 @@ pub(crate) use self::row::INPUTS;
 pub use self::row::Row;
 use self::rows::Line::{self, Alone, Of, OfAdhesion, Words};
 pub use self::rows::rows;
-pub(crate) use self::sentences::{estimate, untold};
+pub(crate) use self::sentences::{bytes, estimate, untold};
 pub use self::sentences::{shortfalls, unbalanced};
 pub use self::slopes::Slopes;
 pub(crate) use self::warnings::warnings_of_input;

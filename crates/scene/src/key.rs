@@ -36,7 +36,7 @@ mod words;
 
 use std::ops::RangeInclusive;
 
-pub use self::accuracy::{AccuracyKeys, GIB, Goal, PullOffKeys};
+pub use self::accuracy::{AccuracyKeys, CycleAccuracyKeys, GIB, Goal, PullOffKeys};
 pub use self::adhesion::{Adhesion, AdhesionKeys};
 pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKeys, PercolationKeys, StiffnessKeys};
 pub use self::asked::{Asked, NestedKeys, PathKeys};

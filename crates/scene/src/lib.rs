@@ -19,7 +19,7 @@ pub use account::*;
 pub use case::{Case, Map, Maps, Objects, Part, Posed, complete, sided};
 pub use hash::Hash;
 pub use key::*;
-pub use session::limit::CycleLimit;
+pub use session::limit::{CycleLevel, CycleLimit, CycleLimits};
 pub use session::way::Way;
 pub use session::{AnySession, Next, Observe, Session, Solved, TableFile};
 pub use session::{fall, pace};

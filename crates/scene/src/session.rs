@@ -28,6 +28,7 @@ use crate::key::{After, Asked, Constraint, Goal, Precision, Scalar, Scene, Skin,
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
+use crate::session::limit::Coarser;
 use crate::session::posed::Body;
 use crate::table::warnings::Warnings;
 use crate::table::{Format, Table};
@@ -56,8 +57,8 @@ pub struct Session<T: Scalar> {
     last: bool,
     course: Option<Course<T>>,
     table: Option<Table>,
-    /// The cycle on the coarser grid that tells the limit
-    coarser: Option<Box<Self>>,
+    /// What tells the limits of a cycle
+    coarser: Option<Coarser<T>>,
 }
 
 /// What all solves of a session have in common besides the problem.
@@ -162,7 +163,7 @@ impl<T: Scalar> Session<T> {
     pub fn renew(&mut self) -> Result<()> {
         let hardness = self.facts.hardness.as_ref().map(|hardness| hardness.view());
         self.solver.constraint = self.facts.scene.adhesion.constraint(hardness)?;
-        (self.body, self.course, self.table) = (Body::Surface(self.surface()?), None, None);
+        (self.body, self.course, self.table, self.coarser) = (Body::Surface(self.surface()?), None, None, None);
         Ok(())
     }
 

@@ -72,12 +72,18 @@ class CycleLimit(NamedTuple):
         Greatest tension, over the area of the map.
     tension_error : float
         Estimated error of the limit of the tension.
+    levels : list of dict
+        Cycle on each grid, the finest last: ``shape``, ``work``, ``work_error`` and ``greatest_tension``.
+    accuracy : dict or None
+        Accuracy that was asked for: ``wanted``, ``of``, and whether it was ``reached``.
     """
 
     work: float
     work_error: float
     tension: float
     tension_error: float
+    levels: list[dict[str, Any]]
+    accuracy: dict[str, Any] | None
 
     def __repr__(self) -> str:
         return summary(self)
@@ -111,17 +117,20 @@ class Cycle(Rows[Step]):
     def limit(self) -> CycleLimit | None:
         """The limits of no range of the work and of the greatest tension, with `JKR`; solves what is left.
 
-        The same cycle is solved on the grid of half as many nodes along the sides, when the limits are first asked for.
-        None for laws with a range, for a cycle that an observer ended, with a start or a map of the hardness, and where
-        there is no such grid.
+        The same cycle is solved on the grid of half as many nodes along the sides, when the limits are first asked for, and
+        for an ``accuracy`` before the first state. None for laws with a range, for a cycle that an observer ended, with a
+        start and absent nodes, and where there is no such grid. With an `AccuracyWarning` where an accuracy was not reached.
         """
         self.run()
         if self._limit is None and self.rows and self.rows[-1]["status"] != "stopped":
             with self._contact.turns:
                 found = self._contact.problem.cycle_limit(self._observe)
             if found is not None:
-                keys = ("work_limit", "work_limit_error", "tension_limit", "tension_limit_error")
-                self._limit = CycleLimit(*(found[key] for key in keys))
+                shortfall, limit = found
+                keys = ("work_limit", "work_limit_error", "tension_limit", "tension_limit_error", "levels")
+                self._limit = CycleLimit._make([*(limit[key] for key in keys), limit.get("accuracy")])
+                if shortfall is not None:
+                    warn(shortfall, AccuracyWarning)
         return self._limit
 
     def __getstate__(self) -> dict[str, Any]:

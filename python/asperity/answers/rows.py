@@ -41,7 +41,7 @@ class Rows(Iterator[T]):
         table = None if path is None else (path, kept, force, *_law.fields(contact.own_law))
         seed, first = contact.topography.seed, contact._start(start)
         try:
-            (names, rows), self._loads = contact.problem.begin(way, keys, first, (seed, table))
+            (names, rows), self._loads = contact.problem.begin(way, keys, first, (seed, table), observe)
         except BlockingIOError:
             own = _TABLES.get(path or "")
             if own is None:

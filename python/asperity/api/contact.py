@@ -28,6 +28,7 @@ from ..bodies.wall import Penalty, Uzawa
 from ..common.progress import default_progress
 from ..common.types import (
     AccuracyOf,
+    AccuracyOfCycle,
     AxisOrder,
     Base,
     Boundary,
@@ -277,6 +278,9 @@ class Contact(Posed):
         steps: int | None = 50,
         smallest_step: float | None = None,
         imbalance: float | None = 0.0001,
+        accuracy: float | None = None,
+        accuracy_of: AccuracyOfCycle | None = None,
+        memory: float | None = None,
         start: Start = None,
         observe: Callable[[Iteration], object] | None = None,
         out: str | PathLike[str] | None = None,

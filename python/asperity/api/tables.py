@@ -15,6 +15,7 @@ from ..answers.sweep import Sweep
 from ..bodies.body import Body
 from ..bodies.wall import Penalty, Uzawa
 from ..common.types import (
+    AccuracyOfCycle,
     AxisOrder,
     Base,
     Boundary,
@@ -198,6 +199,9 @@ def cycle(
     steps: int | None = 50,
     smallest_step: float | None = None,
     imbalance: float | None = 0.0001,
+    accuracy: float | None = None,
+    accuracy_of: AccuracyOfCycle | None = None,
+    memory: float | None = None,
     start: Start = None,
     observe: Callable[[Iteration], object] | None = None,
     out: str | PathLike[str] | None = None,
@@ -237,6 +241,14 @@ def cycle(
     imbalance : float
         Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed,
         and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one.
+    accuracy : float, optional
+        Relative error of the limit of no range to reach, such as 0.1, with `JKR`. The cycle is followed on coarser grids
+        first, and the heights are interpolated on finer ones until the error that is to be expected is small enough: the
+        states are on that grid, which the logger ``asperity`` says, and ``limit`` has what was reached.
+    accuracy_of : {"work", "tension"}, optional
+        Quantity that has the accuracy: the work done by the load, by default, or the greatest tension.
+    memory : float, optional
+        Memory that an accuracy may take, in GiB; all that is free by default.
     smooth : bool
         Whether jumps of the law's traction are smoothed by what the grid resolves.
     out : str or path, optional

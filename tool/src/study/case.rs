@@ -67,6 +67,9 @@ impl Run<'_> {
                 "cycle" => Way::cycle(loads, full, problem.case.given().path())?,
                 _ => Way::sweep(loads, full),
             };
+            if let (Way::Cycle(..), Some(goal)) = (&way, in_options(problem.case.given().cycle_goal())?) {
+                session.refine(&way, goal, start.is_some(), &mut |_, _, _| ControlFlow::Continue(()))?;
+            }
             let (out, format, force) = (out.clone(), Some(self.format), self.force);
             let file = TableFile { out, format, force, is_case: true, law_table, works, ..TableFile::default() };
             session.begin(way, after, false, start, Some(file))?;
@@ -75,6 +78,11 @@ impl Run<'_> {
             while let Some((_, row)) = session.next(&mut |_| ControlFlow::Continue(()))? {
                 let rows = session.rows();
                 tell(&mut session.warnings, rows, Some(&row.account));
+            }
+            // of an accuracy, which is known without a further cycle
+            if session.coarser_shape().is_none() {
+                let limit = session.cycle_limit(&mut |_| ControlFlow::Continue(()))?;
+                limit.and_then(|limit| limit.shortfall(Skin::Options)).into_iter().for_each(warn);
             }
             return Ok(());
         }

@@ -71,15 +71,23 @@ pub(super) const UNREFINABLE: &str = "a single node, absent nodes, steps and pla
 
 /// The reason why an accuracy was not reached, with a remedy.
 fn inaccurate(account: &Account, reached: &Reached) -> String {
-    let reason = match reached.unaffordable {
-        Some(((nx, ny), size)) => {
-            format!("{nx} x {ny} nodes would be next, and take {}: raise {{memory}}, or ask for less", bytes(size))
-        }
-        None if !reached.refinable => UNREFINABLE.to_owned(),
-        None => "the solve has not converged".to_owned(),
-    };
-    let (Reached { wanted, of, .. }, estimate) = (reached, estimate(account));
-    format!("the accuracy of {wanted} of the {of} is not reached: the estimate is {estimate}; {reason}")
+    reached.missed(&estimate(account), "the solve has not converged")
+}
+
+impl Reached {
+    /// An accuracy that was not reached, with the error that is estimated instead, and the reason, on a grid that could be
+    /// refined the other one.
+    pub(crate) fn missed(&self, estimate: &str, other: &str) -> String {
+        let reason = match self.unaffordable {
+            Some(((nx, ny), size)) => {
+                format!("{nx} x {ny} nodes would be next, and take {}: raise {{memory}}, or ask for less", bytes(size))
+            }
+            None if !self.refinable => UNREFINABLE.to_owned(),
+            None => other.to_owned(),
+        };
+        let Self { wanted, of, .. } = self;
+        format!("the accuracy of {wanted} of the {of} is not reached: the estimate is {estimate}; {reason}")
+    }
 }
 
 /// The remedy for an equilibrium that would not last, if it is one.
@@ -126,7 +134,7 @@ impl Goal {
 }
 
 /// Bytes in words.
-fn bytes(bytes: f64) -> String {
+pub(crate) fn bytes(bytes: f64) -> String {
     if bytes < GIB { format!("{:.0} MiB", bytes * 1024.0 / GIB) } else { format!("{:.1} GiB", bytes / GIB) }
 }
 

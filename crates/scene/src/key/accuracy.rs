@@ -47,16 +47,42 @@ keys! {
     }
 }
 
-/// The names of the quantities that may have an accuracy.
+keys! {
+    /// The accuracy of a cycle.
+    CycleAccuracyKeys {
+        "Solver" {
+            /// Relative error of the limit of no range to reach, such as 0.1, with the law jkr: solves the cycle on coarser
+            /// grids first, and on finer ones until the error that is to be expected is small enough
+            accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
+            /// Quantity that has the accuracy [default: work]
+            accuracy_of: Option<String> = Kind::word(of_cycles, &["QUANTITY"]).needs(&["accuracy"]),
+            /// Memory that {accuracy} may take, in GiB [default: all that is free]
+            memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
+        }
+    }
+}
+
+/// The names of the quantities of a solution that may have an accuracy.
 fn quantities() -> Vec<Word> {
+    words(&Quantity::ALL)
+}
+
+/// The names of the quantities of a cycle that may have an accuracy.
+fn of_cycles() -> Vec<Word> {
+    words(&Quantity::OF_LOOPS)
+}
+
+fn words(quantities: &[Quantity]) -> Vec<Word> {
     let help = |quantity| match quantity {
         Quantity::Area => "Contact area, corrected for its edge",
         Quantity::Gap => "Mean gap",
         Quantity::Approach => "Approach, with a free boundary",
         Quantity::Pressure => "Mean pressure",
+        Quantity::Work => "Work done by the load, over a closed cycle the energy that it dissipates",
+        Quantity::Tension => "Greatest tension",
         _ => "",
     };
-    Quantity::ALL.iter().map(|quantity| Word { name: quantity.name(), help: help(*quantity) }).collect()
+    quantities.iter().map(|quantity| Word { name: quantity.name(), help: help(*quantity) }).collect()
 }
 
 /// The accuracy to reach, from which tolerance and grid follow.
@@ -71,23 +97,22 @@ pub struct Goal {
 }
 
 impl Given {
-    /// The accuracy, if one is asked for.
+    /// The accuracy of a solution, if one is asked for.
     ///
     /// # Errors
     /// A quantity or a memory without an accuracy, and a memory that is none, for [`worded`](crate::worded).
     pub fn goal(&self) -> Result<Option<Goal>, String> {
         let AccuracyKeys { accuracy, accuracy_of, memory } = self.keys();
-        let named = |name: &str| Quantity::ALL.into_iter().find(|quantity| quantity.name() == name);
-        let of = accuracy_of.as_deref().and_then(named).unwrap_or(Quantity::Area);
-        match (accuracy, memory) {
-            (None, _) if memory.is_some() || accuracy_of.is_some() => {
-                Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, such as 0.01 for 1 %".to_owned())
-            }
-            (_, Some(memory)) if memory <= 0.0 || memory.is_nan() => {
-                Err(format!("{{memory}} is {memory}: it must be positive, in GiB"))
-            }
-            (accuracy, memory) => Ok(accuracy.map(|accuracy| Goal { accuracy, of, memory })),
-        }
+        goal_of(&Quantity::ALL, accuracy, accuracy_of, memory)
+    }
+
+    /// The accuracy of a cycle, if one is asked for.
+    ///
+    /// # Errors
+    /// As [`Given::goal`].
+    pub fn cycle_goal(&self) -> Result<Option<Goal>, String> {
+        let CycleAccuracyKeys { accuracy, accuracy_of, memory } = self.keys();
+        goal_of(&Quantity::OF_LOOPS, accuracy, accuracy_of, memory)
     }
 
     /// The search for a pull-off.
@@ -105,5 +130,24 @@ impl Goal {
         wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
         wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
         wanted
+    }
+}
+
+/// The accuracy of one of some quantities, by default of the first.
+fn goal_of(
+    all: &[Quantity],
+    accuracy: Option<f64>,
+    of: Option<String>,
+    memory: Option<f64>,
+) -> Result<Option<Goal>, String> {
+    let wanted = *all.iter().find(|quantity| Some(quantity.name()) == of.as_deref()).unwrap_or(&all[0]);
+    match (accuracy, memory) {
+        (None, _) if memory.is_some() || of.is_some() => {
+            Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, such as 0.01 for 1 %".to_owned())
+        }
+        (_, Some(memory)) if memory <= 0.0 || memory.is_nan() => {
+            Err(format!("{{memory}} is {memory}: it must be positive, in GiB"))
+        }
+        (accuracy, memory) => Ok(accuracy.map(|accuracy| Goal { accuracy, of: wanted, memory })),
     }
 }

@@ -1,13 +1,13 @@
 //! The keys that are keywords of Python.
 
 use crate::key::{
-    AccuracyKeys, AdhesionKeys, ConductorKeys, FindingsKeys, FractionsKeys, Key, Keys, LeakageKeys, LoadKeys,
-    LoadsKeys, NestedKeys, PathKeys, PullOffKeys, SolverKeys, StiffnessKeys, SurfaceKeys, Values,
+    AccuracyKeys, AdhesionKeys, ConductorKeys, CycleAccuracyKeys, FindingsKeys, FractionsKeys, Key, Keys, LeakageKeys,
+    LoadKeys, LoadsKeys, NestedKeys, PathKeys, PullOffKeys, SolverKeys, StiffnessKeys, SurfaceKeys, Values,
 };
 
-/// Their lists: the name of each, what it is of, and its keys; that of a pull-off, whose accuracy has a meaning of its
-/// own, comes last.
-pub static KEYWORDS: [(&str, &str, &[Key]); 14] = [
+/// Their lists: the name of each, what it is of, and its keys; the accuracies of a cycle and of a pull-off, which
+/// have meanings of their own, come last.
+pub static KEYWORDS: [(&str, &str, &[Key]); 15] = [
     ("Surface", "The surface, the bodies, and the boundary", SurfaceKeys::KEYS),
     ("Adhesion", "The adhesion between the surfaces, the wall, and the hardness", AdhesionKeys::KEYS),
     ("Solver", "The method and the accuracy of a solve", SolverKeys::KEYS),
@@ -21,6 +21,7 @@ pub static KEYWORDS: [(&str, &str, &[Key]); 14] = [
     ("Leakage", "The leakage of a table", LeakageKeys::KEYS),
     ("Accuracy", "The accuracy to reach", AccuracyKeys::KEYS),
     ("Path", "The steps of a cycle", PathKeys::KEYS),
+    ("CycleAccuracy", "The accuracy of a cycle", CycleAccuracyKeys::KEYS),
     ("PullOff", "The pull-off that is asked for", PullOffKeys::KEYS),
 ];
 

@@ -14,6 +14,7 @@ use crate::account::{Found, Row};
 use crate::key::{After, Asked, Scalar};
 use crate::outcome::Outcome;
 use crate::session::course::Course;
+use crate::session::limit::Coarser;
 use crate::session::pace::Pace;
 use crate::session::way::Way;
 use crate::session::{Session, Solved};
@@ -92,10 +93,11 @@ impl<T: Scalar> Session<T> {
             }
             false => None,
         };
-        self.coarser = None;
+        self.coarser =
+            self.coarser.take().filter(|coarser| matches!((coarser, &way), (Coarser::Behind(_), Way::Cycle(..))));
         if let Way::Cycle(_, settings) = &way {
-            if start.is_none() {
-                self.coarser = self.coarser(loads, *settings)?;
+            if self.coarser.is_none() {
+                self.coarser = self.coarser(loads, *settings, start.as_ref())?;
             }
             let modulus = self.facts.scene.elastic.body()?.modulus_on(&self.grid);
             let found = Warning::of_cycle(&*self.law, &self.grid, modulus, settings.smooth);
@@ -182,6 +184,9 @@ impl<T: Scalar> Session<T> {
         }
         let Some(found) = course.next(self, observe)? else { return Ok(None) };
         let Solved { mut found, account } = self.solved(course.command(), found)?;
+        if let Some(Coarser::Behind(chosen)) = &self.coarser {
+            found.refined = Some((*chosen.surface).clone());
+        }
         let row = course.row(&mut found, account, self.seed)?;
         Ok(Some((found, row)))
     }

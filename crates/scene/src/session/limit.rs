@@ -1,22 +1,24 @@
-//! The limit of no range of a cycle, by the same cycle on the grid of half as many nodes along the sides.
+//! The limit of no range of a cycle, by the same cycle on coarser grids, and the grid on which it has an accuracy.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use asperity::accuracy::LoopLimit;
-use asperity::adhesion::Discretisation;
-use asperity::path::PathSettings;
+use asperity::accuracy::{LoopGrid, LoopLimit};
+use asperity::path::{PathEnd, PathSettings};
 use asperity::solver::Iteration;
-use asperity::{Control, Solver, Status};
+use asperity::{AdhesionLaw, Control, Real, Solver, Status, Surface};
+use ndarray::Array2;
 use serde::Serialize;
 
+use crate::account::{Reached, bytes};
 use crate::case::Part;
-use crate::key::{After, ENERGY_PER_AREA, PRESSURE, Scalar, record};
+use crate::key::{After, ENERGY_PER_AREA, Goal, PRESSURE, Scalar, Skin, record, worded};
+use crate::numbers::percent;
 use crate::outcome::Outcome;
 use crate::session::course::Course;
 use crate::session::posed::Body;
 use crate::session::way::Way;
-use crate::session::{Facts, Session};
+use crate::session::{Facts, Observe, Session};
 use crate::table::warnings::Warnings;
 
 record! {
@@ -34,21 +36,174 @@ record! {
     }
 }
 
+/// The limits of no range of a cycle, with the grids that tell them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CycleLimits {
+    /// The limits.
+    #[serde(flatten)]
+    pub limit: CycleLimit,
+    /// The cycle on each grid, the finest last.
+    pub levels: Vec<CycleLevel>,
+    /// The end of a cycle to an accuracy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Reached>,
+    #[serde(skip)]
+    told: LoopLimit,
+}
+
+/// The cycle on one grid.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CycleLevel {
+    /// The nodes (Nx, Ny) of the grid.
+    pub shape: (usize, usize),
+    /// The work done by the load, per area of the map.
+    pub work: f64,
+    /// The standard error of the work.
+    pub work_error: f64,
+    /// The greatest tension.
+    pub greatest_tension: f64,
+}
+
+/// A grid, and the end of a cycle on it.
+type Level = ((usize, usize), PathEnd);
+
+/// What tells the limits of a cycle.
+pub(super) enum Coarser<T: Scalar> {
+    /// The cycle on the coarser grid, which is followed after the last row.
+    Ahead(Box<Session<T>>),
+    /// The cycle on coarser grids, which was followed before the first row, and chose the grid for an accuracy.
+    Behind(Box<Chosen>),
+}
+
+/// The grid that was chosen for an accuracy.
+pub(super) struct Chosen {
+    levels: Vec<Level>,
+    accuracy: Reached,
+    pub surface: Arc<Surface>,
+}
+
+impl CycleLimits {
+    /// The limits by a cycle on some grids, the finest last, to an accuracy, if one was asked for.
+    fn of(levels: &[Level], accuracy: Option<Reached>) -> Option<Self> {
+        let [.., (_, coarse), (shape, fine)] = levels else { return None };
+        let told = LoopLimit::of(*shape, fine, coarse);
+        let level = |&(shape, PathEnd { work, work_error, greatest_tension, .. }): &Level| CycleLevel {
+            shape,
+            work,
+            work_error,
+            greatest_tension,
+        };
+        let reached = |of| told.get(of).relative_error();
+        Some(Self {
+            limit: CycleLimit::of(told),
+            levels: levels.iter().map(level).collect(),
+            accuracy: accuracy.map(|asked| Reached { reached: reached(asked.of) <= asked.wanted, ..asked }),
+            told,
+        })
+    }
+
+    /// The shortfall of an accuracy that was not reached, with a remedy, in the words of a skin.
+    pub fn shortfall(&self, skin: Skin) -> Option<String> {
+        let accuracy = self.accuracy.filter(|accuracy| !accuracy.reached)?;
+        let estimate = format!("{} %", percent(self.told.get(accuracy.of).relative_error()));
+        Some(worded(&accuracy.missed(&estimate, "give a smaller {accuracy}, which takes a finer grid"), skin))
+    }
+}
+
+impl Goal {
+    /// The grid of a cycle to the accuracy in words.
+    fn chosen<T: Real>(&self, found: &LoopGrid<T>) -> String {
+        let (Self { accuracy, of, .. }, (nx, ny)) = (self, found.surface.grid().shape());
+        let coarser: Vec<_> = found.levels.iter().map(|((nx, ny), _)| format!("{nx} x {ny}")).collect();
+        let (size, coarser) = (bytes(found.bytes), coarser.join(", "));
+        let expected = match found.expected.is_finite() {
+            true => format!("an error of {} % is expected", percent(found.expected)),
+            false => "one coarser grid tells no error before the last row".to_owned(),
+        };
+        format!("accuracy {accuracy} of the {of}: {nx} x {ny} nodes, {size}, by the cycle on {coarser}; {expected}")
+    }
+}
+
 impl<T: Scalar> Session<T> {
-    /// The same cycle on the coarser grid, before the first solve: by laws that attract next to contacts alone, where there
-    /// is such a grid and neither a start nor a hardness is given node by node.
-    pub(super) fn coarser(&self, loads: &[Control], settings: PathSettings) -> Outcome<Option<Box<Self>>> {
-        if !self.law.hints().touches() || self.facts.hardness.is_some() {
+    /// Puts the session on the grid on which a cycle is likely to have an accuracy, by the cycle on coarser grids, from the
+    /// default start, unless one is given; returns the grid in words. To be called before [`Session::begin`].
+    ///
+    /// # Errors
+    /// A start or a hardness, a cycle that was stopped, those of
+    /// [`Accuracy::loop_grid`](asperity::accuracy::Accuracy::loop_grid) and of the solvers of the library.
+    pub fn refine(&mut self, way: &Way, goal: Goal, is_started: bool, observe: Observe<'_>) -> Outcome<String> {
+        let Way::Cycle(loads, settings) = way else { return Err("an accuracy of a table is of a cycle".into()) };
+        let refused = match () {
+            () if is_started => "an accuracy makes its own start and chooses the grids: leave out {initial_gap}",
+            () if self.facts.scene.adhesion.yields() => {
+                "{accuracy} and {hardness}: the error of the grid is known of elastic contact alone: leave one of them out"
+            }
+            () => "",
+        };
+        if !refused.is_empty() {
+            return self.worded(Err(refused.to_owned()));
+        }
+        self.facts.processes.alone("the accuracy of a cycle")?;
+        let (surface, tolerance) = (self.surface()?, self.solver.settings.tolerance_in::<T>());
+        let mut operator = self.facts.scene.elastic.operator::<T>(*surface.grid())?;
+        let follow = |surface: &Surface, law: &Arc<dyn AdhesionLaw<T>>| -> Outcome<_> {
+            let (grid, surface) = (*surface.grid(), Arc::new(surface.clone()));
+            let mut session = self.on_grid(surface, law.clone(), loads, *settings, None)?;
+            let mut course = session.course.clone();
+            course.iter_mut().try_for_each(|course| course.check(&mut session))?;
+            session.follow(&mut |state| observe(&grid, state, tolerance))
+        };
+        let wanted = goal.wanted(false);
+        let found = wanted.loop_grid(&surface, &mut operator, Arc::clone(&self.law), follow)?;
+        let found = found.ok_or("the cycle was stopped before its first row")?;
+        let chosen = goal.chosen(&found);
+        let LoopGrid { surface, law, levels, refinable, unaffordable, .. } = found;
+        let surface = Arc::new(surface);
+        (self.grid, self.law, self.surface) = (*surface.grid(), law, Arc::downgrade(&surface));
+        self.body = Body::Surface(surface.clone());
+        self.facts.part = self.facts.part.on(self.grid)?;
+        let accuracy = Reached { wanted: goal.accuracy, of: goal.of, reached: false, refinable, unaffordable };
+        self.coarser = Some(Coarser::Behind(Box::new(Chosen { levels, accuracy, surface })));
+        Ok(chosen)
+    }
+
+    /// The same cycle on the coarser grid, from the gap there of a start that is given, by laws that attract next to contacts
+    /// alone; none where there is no such grid, and where a start is given and nodes are absent, whose gap is infinite.
+    pub(super) fn coarser(
+        &self,
+        loads: &[Control],
+        settings: PathSettings,
+        start: Option<&Array2<f64>>,
+    ) -> Outcome<Option<Coarser<T>>> {
+        let surface = self.surface()?;
+        if !self.law.hints().touches() || start.is_some() && surface.absent_nodes() > 0 {
             return Ok(None);
         }
-        let surface = self.surface()?;
-        let Some(surface) = LoopLimit::coarser(&surface, &*self.law)?.map(Arc::new) else { return Ok(None) };
-        let ((nx, ny), (cx, cy)) = (self.grid.shape(), surface.grid().shape());
-        let law = self.law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Arc::clone(&self.law));
-        let solver = Solver { settings: self.solver.settings, constraint: self.facts.scene.adhesion.constraint(None)? };
+        let on_coarser = |surface: &Surface| LoopLimit::coarser(surface, Arc::clone(&self.law));
+        let Some((coarse, law)) = on_coarser(&surface)? else { return Ok(None) };
+        // a field of the grid, as heights are one
+        let start =
+            start.map(|start| on_coarser(&Surface::new(*surface.grid(), start.clone())?)).transpose()?.flatten();
+        let start = start.map(|(start, _)| start.heights().to_owned());
+        let session = self.on_grid(Arc::new(coarse), law, loads, settings, start)?;
+        Ok(Some(Coarser::Ahead(Box::new(session))))
+    }
+
+    /// The session of the same cycle on another grid, from a gap there or the default start.
+    fn on_grid(
+        &self,
+        surface: Arc<Surface>,
+        law: Arc<dyn AdhesionLaw<T>>,
+        loads: &[Control],
+        settings: PathSettings,
+        start: Option<Array2<f64>>,
+    ) -> Outcome<Self> {
+        let constraint =
+            self.facts.scene.adhesion.constraint(self.facts.hardness.as_ref().map(|hardness| hardness.view()))?;
+        let solver = Solver { settings: self.solver.settings, constraint };
         let loads: Vec<_> = loads.iter().map(|load| self.on_whole(*load)).collect();
         let (part, strongest, hardness, scars_removed) = (Part::all(*surface.grid()), None, None, None);
-        let mut coarser = Self {
+        let mut session = Self {
             inputs: self.inputs.clone(),
             seed: None,
             warnings: Warnings::new(Vec::new(), false)?,
@@ -63,33 +218,47 @@ impl<T: Scalar> Session<T> {
             law,
             solver,
         };
-        let start = coarser.start_afar(&loads).map(T::field);
+        let start = start.or_else(|| session.start_afar(&loads)).map(T::field);
         let course = Course::new(Way::Cycle(loads, settings), After::default(), None, |load| load)?;
-        coarser.course = Some(course.starting_from(start));
-        Ok(Some(Box::new(coarser)))
+        session.course = Some(course.starting_from(start));
+        Ok(session)
     }
 
-    /// The number of nodes along the sides of the coarser grid that tells the limit of the cycle, if one does.
+    /// The end of its cycle, which is followed to there; none if an observer ends a solve.
+    fn follow(&mut self, observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send)) -> Outcome<Option<PathEnd>> {
+        while let Some((found, _)) = self.next(&mut *observe)? {
+            if found.solution.report.status == Status::Stopped {
+                return Ok(None);
+            }
+        }
+        Ok(self.course.as_ref().and_then(Course::end))
+    }
+
+    /// The number of nodes along the sides of the coarser grid on which the cycle is followed after its last row, for its
+    /// limits, if it is.
     pub fn coarser_shape(&self) -> Option<(usize, usize)> {
-        self.coarser.as_ref().map(|coarser| coarser.grid.shape())
+        if let Some(Coarser::Ahead(coarser)) = &self.coarser { Some(coarser.grid.shape()) } else { None }
     }
 
-    /// The limit of no range of a cycle whose last state is kept; none where no coarser grid tells it, and if an observer
-    /// ends a solve. It is told once.
+    /// The limits of no range of a cycle whose last state is kept; none where no coarser grid tells them, and if an observer
+    /// ends a solve. They are told once.
     ///
     /// # Errors
     /// Errors of the solvers of the library.
     pub fn cycle_limit(
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<CycleLimit>> {
-        let Some(mut coarser) = self.coarser.take() else { return Ok(None) };
-        while let Some((found, _)) = coarser.next(&mut *observe)? {
-            if found.solution.report.status == Status::Stopped {
-                return Ok(None);
+    ) -> Outcome<Option<CycleLimits>> {
+        let (mut levels, accuracy) = match self.coarser.take() {
+            None => return Ok(None),
+            Some(Coarser::Behind(chosen)) => (chosen.levels, Some(chosen.accuracy)),
+            Some(Coarser::Ahead(mut coarser)) => {
+                let Some(end) = coarser.follow(observe)? else { return Ok(None) };
+                (vec![(coarser.grid.shape(), end)], None)
             }
-        }
-        let [fine, coarse] = [&*self, &*coarser].map(|session| session.course.as_ref().and_then(|course| course.end()));
-        Ok(fine.zip(coarse).map(|(fine, coarse)| CycleLimit::of(LoopLimit::of(&fine, &coarse))))
+        };
+        let end = self.course.as_ref().and_then(Course::end);
+        levels.extend(end.map(|end| (self.grid.shape(), end)));
+        Ok(CycleLimits::of(&levels, accuracy))
     }
 }

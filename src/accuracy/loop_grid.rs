@@ -1,0 +1,188 @@
+//! The grid on which a loop of loads has an accuracy, by the loop on coarser grids.
+
+use std::sync::Arc;
+
+use super::goal::{DOUBT, NUMBERS, is_refinable, on_coarse, on_twice};
+use super::refine::{overshoots, refined, twice};
+use super::{Accuracy, LoopLimit, Quantity};
+use crate::adhesion::{AdhesionLaw, SharedLaw};
+use crate::elastic::{Boundary, ElasticOperator};
+use crate::error::{Error, Result};
+use crate::nested::coarsened;
+use crate::path::PathEnd;
+use crate::real::Real;
+use crate::surface::Surface;
+
+/// The share of the error of a limit that is left on a grid of twice as many nodes along the sides. It comes to a half where
+/// contacts have many nodes, and is nearer to one where they have few; the share of the places that touch falls as that.
+const LEFT: f64 = 0.7;
+
+/// The numbers of 8 bytes that a path takes for each node, besides those of a solve: its gaps, and the softest mode.
+const KEPT: f64 = 24.0;
+
+/// The most doublings of a grid.
+const MOST: i32 = 40;
+
+/// The relative error that is left of errors of the grid and of its jumps on a grid that is so many times doubled.
+fn left([of_grid, of_jumps]: [f64; 2], finer: i32) -> f64 {
+    (of_grid * LEFT.powi(finer)).hypot(of_jumps)
+}
+
+/// The grid on which a loop of loads is likely to have an accuracy; [`Accuracy::loop_grid`] has an example.
+#[non_exhaustive]
+#[derive(Clone)]
+pub struct LoopGrid<T: Real> {
+    /// The surface on this grid.
+    pub surface: Surface,
+    /// The law on it.
+    pub law: Arc<dyn AdhesionLaw<T>>,
+    /// The nodes (Nx, Ny) of the coarser grids on which the loop was followed, the coarsest first, and its end on each.
+    pub levels: Vec<((usize, usize), PathEnd)>,
+    /// The relative error of the limit that is to be expected with this grid.
+    pub expected: f64,
+    /// The memory that the loop takes on this grid, in bytes.
+    pub bytes: f64,
+    /// Whether the surface and the law are known on finer grids, as in [`AccurateSolution`](super::AccurateSolution).
+    pub refinable: bool,
+    /// The next finer grid and its memory in bytes, if that is too much.
+    pub unaffordable: Option<((usize, usize), f64)>,
+}
+
+impl Accuracy {
+    /// The grid on which a loop is likely to have the accuracy, by a law that attracts next to contacts alone; none if
+    /// `follow` returns none.
+    ///
+    /// `follow` follows the loop on a surface with a law, and returns its end: first on grids of a quarter and of half of
+    /// the nodes along the sides. As long as the error of the [limit](LoopLimit) that is to be expected exceeds the
+    /// accuracy, it follows on a grid of twice as many, for which the surface is interpolated as by [`Accuracy::solve`].
+    /// The loop on the grid that is returned is left to be followed: with the end on the last of the levels,
+    /// [`LoopLimit::of`] tells its limit and its error. `operator` is the operator on the grid of the surface.
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] for a law that attracts everywhere, a quantity that is not of a loop, and a grid that has no coarser
+    /// one; [`Error::Value`] for an accuracy that is not positive; [`Error::Unaffordable`] if the grid is far beyond the
+    /// memory; those of `follow`.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use asperity::accuracy::{Accuracy, LoopLimit, Quantity};
+    /// use asperity::path::{Path, PathSettings};
+    /// use asperity::{AdhesionLaw, Boussinesq, Control, Error, Grid, Jkr, Problem, Solver, Surface};
+    /// let mut follow = |surface: &Surface, law: &Arc<dyn AdhesionLaw<f64>>| {
+    ///     let half_space = Boussinesq::<f64>::new(*surface.grid(), 1.0)?;
+    ///     let mut problem = Problem::new(surface, half_space, law.clone())?;
+    ///     let mut path = Path::new([-0.02, 0.01, -0.2].map(Control::Approach), PathSettings::default())?;
+    ///     while path.next(&mut Solver::default(), &mut problem)?.is_some() {}
+    ///     Ok::<_, Error>(Some(path.end()))
+    /// };
+    /// let sphere = Surface::paraboloid(Grid::square(32, 1.6)?, 1.0)?;
+    /// let mut half_space = Boussinesq::<f64>::new(*sphere.grid(), 1.0)?;
+    /// let (wanted, law) = (Accuracy::new(0.1, Quantity::Work), Arc::new(Jkr::new(2e-3)?));
+    /// let found = wanted.loop_grid(&sphere, &mut half_space, law, &mut follow)?.unwrap();
+    /// let end = follow(&found.surface, &found.law)?.unwrap();
+    /// let shape = found.surface.grid().shape();
+    /// let limit = LoopLimit::of(shape, &end, &found.levels.last().unwrap().1).work;
+    /// assert!(shape > (32, 32) && limit.relative_error() < 0.1);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn loop_grid<T: Real, E: From<Error>>(
+        &self,
+        surface: &Surface,
+        operator: &mut dyn ElasticOperator<T>,
+        law: Arc<dyn AdhesionLaw<T>>,
+        mut follow: impl FnMut(&Surface, &Arc<dyn AdhesionLaw<T>>) -> std::result::Result<Option<PathEnd>, E>,
+    ) -> std::result::Result<Option<LoopGrid<T>>, E> {
+        let coarser = self.grids_below(surface, &*law)?;
+        let periodic = operator.boundary() == Boundary::Periodic;
+        let padding = operator.grid().nodes() as f64 / surface.grid().nodes() as f64;
+        let bytes = |(nx, ny): (usize, usize)| 8.0 * (NUMBERS + KEPT) * padding * nx as f64 * ny as f64;
+        let (mut surface, mut law, mut levels) = (surface.clone(), SharedLaw(law), Vec::new());
+        for coarse in coarser {
+            let Some(end) = follow(&coarse, &on_coarse(&law, &surface, &coarse).0)? else { return Ok(None) };
+            levels.push((coarse.grid().shape(), end));
+        }
+        let mut refinable = is_refinable(&surface, &*law);
+        loop {
+            let (errors, shape) = (self.errors_of_loop(&levels), surface.grid().shape());
+            let (expected, finer) = (left(errors, 1), twice(shape));
+            if refinable && levels.len() > 1 {
+                self.check_loop(errors, shape, bytes)?;
+            }
+            let fits = bytes(finer) <= self.memory;
+            let mut fine = None;
+            if refinable && fits && expected > self.target {
+                fine = Some(refined(&surface, periodic)?);
+                refinable = !fine.as_ref().is_some_and(|fine| overshoots(fine, &surface));
+            }
+            let Some(fine) = fine.filter(|_| refinable) else {
+                let unaffordable = (refinable && !fits).then(|| (finer, bytes(finer)));
+                let (law, bytes) = (law.0, bytes(shape));
+                return Ok(Some(LoopGrid { surface, law, levels, expected, bytes, refinable, unaffordable }));
+            };
+            let Some(end) = follow(&surface, &law.0)? else { return Ok(None) };
+            levels.push((shape, end));
+            law = on_twice(law, &surface, &fine);
+            surface = fine;
+        }
+    }
+
+    /// The surface on the grids of a quarter and of half of the nodes along the sides, as far as there are any.
+    fn grids_below<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> Result<Vec<Surface>> {
+        surface.grid().slab().alone("accuracy")?;
+        Error::positive("accuracy", self.target)?;
+        let what = "accuracy of a loop";
+        if !Quantity::OF_LOOPS.contains(&self.of) {
+            return Err(Error::Unsuited { what, reason: "it is of the work, or of the tension" });
+        }
+        let hints = law.hints();
+        if !hints.touches() {
+            let reason = "the error of the grid is known of the law jkr alone: take that, or leave out the accuracy";
+            return Err(Error::Unsuited { what, reason });
+        }
+        let mut coarser = coarsened(surface, LoopLimit::COARSEST, hints.shape.is_none())?;
+        coarser.truncate(2);
+        if coarser.is_empty() {
+            let reason = "a grid of half as many nodes along the sides tells it, and there is none of 16 nodes or more, with \
+                          every second node of this one: take more nodes, a number that is a power of two";
+            return Err(Error::Unsuited { what, reason });
+        }
+        coarser.reverse();
+        Ok(coarser)
+    }
+
+    /// The relative errors on the last of some levels: of the grid, and of where in their steps the jumps are.
+    fn errors_of_loop(&self, levels: &[((usize, usize), PathEnd)]) -> [f64; 2] {
+        let [.., (_, coarse), (shape, fine)] = levels else { return [f64::INFINITY, 0.0] };
+        let error = |ends: [PathEnd; 2]| LoopLimit::of(*shape, &ends[0], &ends[1]).get(self.of).relative_error();
+        let [of_grid, all] =
+            [[*fine, *coarse].map(|end| PathEnd { work_error: 0.0, ..end }), [*fine, *coarse]].map(error);
+        [of_grid, (all * all - of_grid * of_grid).max(0.0).sqrt()]
+    }
+
+    /// Refuses an accuracy that no grid has, or none within the memory, where the grid below one of this shape has these
+    /// relative errors.
+    fn check_loop(&self, errors: [f64; 2], shape: (usize, usize), bytes: impl Fn((usize, usize)) -> f64) -> Result<()> {
+        if errors[1] >= self.target {
+            let reason =
+                "it is less than the error of where in their steps the jumps are: give a smaller step for jumps";
+            return Err(Error::Unsuited { what: "accuracy of a loop", reason });
+        }
+        let reached = |finer: i32| left(errors, 1 + finer);
+        let needed = |smaller: f64| (0..MOST).find(|&finer| reached(finer) <= smaller * self.target).unwrap_or(MOST);
+        let finer = |count: i32| (0..count).fold(shape, |shape, _| twice(shape));
+        let least = needed(DOUBT);
+        if least == 0 || bytes(finer(least)) <= self.memory {
+            return Ok(());
+        }
+        let most = (0..least).rev().find(|&count| bytes(finer(count)) <= self.memory).unwrap_or(0);
+        let shape = finer(needed(1.0));
+        Err(Error::Unaffordable {
+            quantity: self.of.name(),
+            accuracy: self.target,
+            shape,
+            bytes: bytes(shape),
+            available: self.memory,
+            affordable: reached(most),
+        })
+    }
+}
