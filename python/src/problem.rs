@@ -67,7 +67,7 @@ impl Problem {
         Ok(())
     }
 
-    /// The pressure of which a reduced pressure is a part, if one is among loads that the problem has.
+    /// The unit of a reduced pressure, if one is among loads that the problem has.
     fn full_pressure(&mut self, at: &At<'_>, loads: &[Load]) -> PyResult<f64> {
         let find = || either!(session = self.session() => session.full_pressure(loads));
         at.pool.install(at.py, find).map_err(refusal_of_session)

@@ -155,7 +155,7 @@ def test_what_the_boundary_does_not_have_is_refused(tip, rough):
             pressed(tip, **given)
     with pytest.raises(TypeError, match=r"spring is 1.0: it must be \(stiffness, rest\)"):
         pressed(tip, spring=1.0)
-    with pytest.raises(ValueError, match="there are several loads: give those of one kind"):
+    with pytest.raises(ValueError, match="there are several loads: give loads of one kind"):
         pressed(tip, normal_force=1.0, approach=1.0)
     with pytest.raises(ValueError, match="loaded on an area, not on a line"):
         pressed(np.zeros(8), lengths=1.0, normal_force=1.0)

@@ -64,7 +64,7 @@ pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<
     if problem.case.scene().elastic.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }
-    problem.case.check_elastic("the contact stiffness of an interface is known of elastic contact alone")?;
+    problem.case.check_elastic("the contact stiffness of an interface is known for elastic contact alone")?;
     if Format::of(out) != Some(Format::Csv) {
         return Err(Error::file(out, "does not end in .csv: rename it").into());
     }

@@ -77,7 +77,7 @@ impl Options {
         let problem = ProblemOptions::of([&self.problem.0])?;
         problem.case.check_table()?;
         problem.case.check_elastic(
-            "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
+            "a surface that yields bears another tension after each load of the search: follow it by asperity cycle",
         )?;
         Ok(problem)
     }

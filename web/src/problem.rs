@@ -66,7 +66,7 @@ impl Problem {
     /// Solves under the load that is given.
     ///
     /// # Errors
-    /// The key and the remedy, and those of the solvers.
+    /// The key and the remedy, and errors of the solvers.
     pub fn solve(&mut self, case: &Case, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
         let (answer, started) = either!(state = &mut self.state => state.solve(case, from_last, observe))?;
         self.asked = Some((case.given().typed(), started));

@@ -143,7 +143,7 @@ fn goal_of(
     let wanted = *all.iter().find(|quantity| Some(quantity.name()) == of.as_deref()).unwrap_or(&all[0]);
     match (accuracy, memory) {
         (None, _) if memory.is_some() || of.is_some() => {
-            Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, such as 0.01 for 1 %".to_owned())
+            Err("{accuracy_of} and {memory} require {accuracy}: give it, such as 0.01 for 1 %".to_owned())
         }
         (_, Some(memory)) if memory <= 0.0 || memory.is_nan() => {
             Err(format!("{{memory}} is {memory}: it must be positive, in GiB"))

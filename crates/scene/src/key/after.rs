@@ -36,7 +36,7 @@ keys! {
     ConductorKeys {
         "Output" {
             /// Electrical resistivities of both half-spaces: with {stiffness} these give the electrical conductance of
-            /// the contact per area, by Barber's identity, and its relative error, including that of the grid
+            /// the contact per area, by Barber's identity, and its relative error, including the grid's
             resistivities: Vec<f64> = Kind::quantity(RESISTIVITY, Range::NON_NEGATIVE, &["R1", "R2"]).each()
                 .excludes(&["conductivities"]),
             /// Thermal conductivities of both half-spaces: the same for heat

@@ -32,7 +32,7 @@ keys! {
             imbalance: Option<f64> = Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
         }
         "Adhesion" {
-            /// Do not smooth a law whose traction jumps: the grid then pins the edge of the adhesive zone
+            /// Do not smooth a law with jumps of the traction: the grid then pins the edge of the adhesive zone
             sharp: bool = Kind::switch(),
         }
     }

@@ -232,7 +232,7 @@ keys! {
             /// Roughness by the Fourier coefficients of a text: lines of qX, qY, Re h(q), Im h(q), with whole numbers of
             /// periods along the sides, as FFTW's inverse transform takes them; half of the waves is enough
             fourier: Option<PathBuf> = Kind::file().excludes(&["rms_height", "rms_slope"]),
-            /// Length of which the coefficients are multiples [default: the unit of the side lengths, where that has no name]
+            /// Unit of length of the coefficients [default: the unit of the side lengths, where it has no name]
             fourier_unit: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"])
                 .needs(&["fourier"]).excludes(&["rms_height", "rms_slope"]),
         }

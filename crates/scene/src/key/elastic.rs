@@ -37,14 +37,14 @@ keys! {
             layer: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["T"]).excludes(&["coating"]),
             /// Hold of the base on the layer: bonded, or sliding without friction [default: bonded]
             base: Option<Base> = Kind::word(|| Word::all(&["bonded", "sliding"]), &["BASE"]),
-            /// Thickness of an elastic coating on the half-space; {modulus} is then that of the substrate; needs
+            /// Thickness of an elastic coating on the half-space; {modulus} then belongs to the substrate; needs
             /// {coating_modulus}, {coating_poisson} and {poisson}
             coating: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["T"]),
             /// Contact modulus E/(1 - nu^2) of the coating, a pressure
             coating_modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Poisson's ratio of the coating
             coating_poisson: Option<f64> = Kind::number(Range::POISSON, &["NU"]),
-            /// Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; {modulus} is then that of the
+            /// Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; {modulus} then belongs to the
             /// half-space
             plate: Option<f64> = Kind::quantity(ENERGY, Range::POSITIVE, &["D"]).excludes(&["layer", "coating"]),
             /// Poisson's ratio of the layer, or of the substrate under a coating
@@ -60,7 +60,7 @@ keys! {
             /// with a unit as --shift=-1um,0um
             shift: Vec<f64> = Kind::quantity(LENGTH, Range::FINITE, &["X", "Y"]).from(1).commas().needs(&["against"]),
             /// Give results on all nodes of a map that asperity prepare has mirrored; without it, fields, pictures,
-            /// contact and force are those of the original
+            /// contact and force belong to the original
             whole: bool = Kind::switch(),
         }
     }
@@ -213,7 +213,7 @@ impl Elastic {
         Self { coating_modulus, coating_poisson, ..own }
     }
 
-    /// Those of the body itself, in the order of its kinds.
+    /// The keys of the body itself, in the order of its kinds.
     fn own(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
         let of_half_space = ["boundary", "modulus", "against_modulus"];
         let all = json!(self);
@@ -298,7 +298,7 @@ impl Elastic {
     /// times as many with a free boundary.
     ///
     /// # Errors
-    /// [`Error::Memory`] if the memory is too small, and those of the body and the operator.
+    /// [`Error::Memory`] if the memory is too small, and errors of the body and the operator.
     pub(crate) fn operator<T: Real>(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
         if !grid.is_shared() {
             check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
@@ -319,7 +319,7 @@ impl Elastic {
     /// The body by the stiffness of its waves, with the other one if that is elastic.
     ///
     /// # Errors
-    /// Those of the body.
+    /// Errors of the body.
     pub(crate) fn body(&self) -> Result<Arc<dyn Body>> {
         let own = match self.kind() {
             Some(kind) => (kind.make)(self)?,

@@ -94,8 +94,8 @@ impl Given {
             let Some(key) = known.iter().find(|key| key.name == name) else {
                 let names: Vec<_> = known.iter().map(|key| key.dashed()).collect();
                 let meant = similar(&name, names.iter().map(String::as_str)).map(|meant| meant.replace('-', "_"));
-                let remedy = meant.map_or("leave it out".to_owned(), |meant| format!("{meant} is"));
-                return Err(format!("{name} is no key that is known here: {remedy}"));
+                let remedy = meant.map_or("leave it out".to_owned(), |meant| format!("did you mean {meant}?"));
+                return Err(format!("unknown key {name}: {remedy}"));
             };
             let all = match typed {
                 Typed::Several(all) => all,

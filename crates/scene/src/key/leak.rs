@@ -9,7 +9,7 @@ keys! {
     LeakKeys {
         "" {
             /// Surroundings of the map: with a free boundary the fluid enters at one side and leaves at the other
-            /// [default: that of the folder, or periodic]
+            /// [default: the folder's, or periodic]
             boundary: Option<Boundary> = Kind::word(Boundary::words, &["BOUNDARY"]),
             /// Gap of absent nodes, at which the file has no number; without it they are closed
             absent_gap: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["G"]),

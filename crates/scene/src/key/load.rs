@@ -41,24 +41,24 @@ keys! {
             /// Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log,
             /// separated by commas
             mean_gaps: Vec<f64> = Kind::quantities(LENGTH, Range::NON_NEGATIVE),
-            /// Mean external pressures over the area of the map, compression positive: a list like that of the gaps
+            /// Mean external pressures over the area of the map, compression positive: a list like {mean_gaps}
             mean_pressures: Vec<f64> = Kind::quantities(PRESSURE, Range::FINITE),
-            /// Normal forces, compression positive: a list like that of the gaps
+            /// Normal forces, compression positive: a list like {mean_gaps}
             normal_forces: Vec<f64> = Kind::quantities(FORCE, Range::FINITE),
             /// Approaches, with a free boundary or over a layer or a coating: how far the bodies have moved towards each
-            /// other from the position of first touch without deformation, negative before it; a list like that of the gaps. A list that grows
-            /// from a negative value begins with the bodies apart
+            /// other from the position of first touch without deformation, negative before it; a list like {mean_gaps}. A
+            /// list that grows from a negative value begins with the bodies apart
             approaches: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE),
             /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
             /// {spring_positions}
             spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_positions"]),
             /// Positions Z of the spring's far end, at which the spring is relaxed: with a free boundary approaches, F
-            /// = K (Z - D); with a periodic one mean gaps, F = K (G - Z); a list like that of the gaps. With a free
-            /// boundary a list that grows from a negative value begins with the bodies apart
+            /// = K (Z - D); with a periodic one mean gaps, F = K (G - Z); a list like {mean_gaps}. With a free boundary a
+            /// list that grows from a negative value begins with the bodies apart
             spring_positions: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
-            /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like that
-            /// of the gaps
+            /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like
+            /// {mean_gaps}
             reduced_pressures: Vec<f64> = Kind::numbers(Range::FINITE),
         }
     }
@@ -68,9 +68,9 @@ keys! {
     /// The contact fractions of a table.
     FractionsKeys {
         "Loads" {
-            /// Shares of the nodes in contact to search for: a list like that of the gaps. The load of each is found
-            /// like that of asperity solve --contact-fraction, and the table has two more columns,
-            /// wanted_contact_fraction and reached
+            /// Shares of the nodes in contact to search for: a list like {mean_gaps}. The load of each is found as by
+            /// asperity solve --contact-fraction, and the table has two more columns, wanted_contact_fraction and
+            /// reached
             contact_fractions: Vec<f64> = Kind::numbers(Range::SHARE),
         }
     }
@@ -197,7 +197,7 @@ fn loads_by(
         ));
     }
     if all.len() > 1 {
-        return Err("there are several loads: give those of one kind".to_owned());
+        return Err("there are several loads: give loads of one kind".to_owned());
     }
     let load = |kind: &LoadKind, number| (kind.make)(number, stiffness.unwrap_or(f64::NAN));
     Ok(all.into_iter().flat_map(|(kind, numbers)| numbers.into_iter().map(move |number| load(kind, number))).collect())

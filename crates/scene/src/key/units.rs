@@ -13,7 +13,7 @@ keys! {
             length_unit: Option<String> = Kind::text(is_unit, &["UNIT"]),
             /// Unit of pressures that are given without one, for tables and pictures; Pa gets prefixes
             pressure_unit: Option<String> = Kind::text(is_unit, &["UNIT"]),
-            /// Unit of forces, for tables and pictures; N gets prefixes [default: that of pressure times length squared]
+            /// Unit of forces, for tables and pictures; N gets prefixes [default: pressure times length squared]
             force_unit: Option<String> = Kind::text(is_unit, &["UNIT"]),
         }
     }
