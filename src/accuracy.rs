@@ -26,7 +26,7 @@ mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
 pub use loop_grid::LoopGrid;
-pub use loops::{Limit, LoopLimit};
+pub use loops::{Limit, LoopLimit, OnGrid};
 pub use pull_off::{AccuratePullOff, Untold};
 
 /// The quantity that an accuracy is asked for.

@@ -89,6 +89,9 @@ pub struct LoopLimit {
     pub tension: Limit,
 }
 
+/// A surface, and the law on its grid.
+pub type OnGrid<T> = (Surface, Arc<dyn AdhesionLaw<T>>);
+
 impl LoopLimit {
     /// The least number of nodes along a side of the coarser grid.
     pub(super) const COARSEST: usize = 16;
@@ -117,10 +120,7 @@ impl LoopLimit {
     ///
     /// # Errors
     /// [`Error::Value`](crate::Error::Value) for a grid that processes cannot share.
-    pub fn coarser<T: Real>(
-        surface: &Surface,
-        law: Arc<dyn AdhesionLaw<T>>,
-    ) -> Result<Option<(Surface, Arc<dyn AdhesionLaw<T>>)>> {
+    pub fn coarser<T: Real>(surface: &Surface, law: Arc<dyn AdhesionLaw<T>>) -> Result<Option<OnGrid<T>>> {
         let coarse = coarsened(surface, Self::COARSEST, law.hints().shape.is_none())?.into_iter().next();
         Ok(coarse.map(|coarse| {
             let law = on_coarse(&SharedLaw(law), surface, &coarse).0;
