@@ -123,6 +123,12 @@ pub(super) fn carlson_rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     f64::NAN
 }
 
+/// A mean pressure that is no tension.
+pub(super) fn pressed(value: f64) -> crate::Result<f64> {
+    let (name, requirement) = ("mean_pressure", "zero or more, as there is no adhesion");
+    if value >= 0.0 { Ok(value) } else { Err(Error::Value { name, value, requirement }) }
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
@@ -170,10 +176,4 @@ mod tests {
         assert_relative_eq!(peak(|x| -(x - 0.3).powi(2), -5.0, 5.0), 0.3, epsilon = 1e-7);
         assert!(below(|x| -x, -100.0, 0.0) >= 100.0);
     }
-}
-
-/// A mean pressure that is no tension.
-pub(super) fn pressed(value: f64) -> crate::Result<f64> {
-    let (name, requirement) = ("mean_pressure", "zero or more, as there is no adhesion");
-    if value >= 0.0 { Ok(value) } else { Err(Error::Value { name, value, requirement }) }
 }
