@@ -122,7 +122,7 @@ class Problem:
     def __new__(
         cls,
         map: Topography,
-        against: tuple[Topography | None, str | None],
+        other: tuple[Topography | None, str | None],
         hardness: _Field | None,
         keywords: Keywords,
         symbol: tuple[Callable[..., Any], str, bool] | None,

@@ -493,7 +493,7 @@ fn bodies_gratings_and_few_lines_are_no_scan_lines() {
     holed.heights.iter_mut().step_by(7).for_each(|h| *h = f64::NAN);
     holed.heights.row_mut(40).fill(f64::NAN);
     let message = Warning::of_lines(&holed, ScanAxis::X).unwrap().message();
-    assert!(message.starts_with("lines along y are offset") && message.contains("those along x"), "{message}");
+    assert!(message.starts_with("lines along y are offset") && message.contains("as lines along x"), "{message}");
 }
 
 #[test]

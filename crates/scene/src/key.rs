@@ -20,6 +20,7 @@ mod leak;
 pub mod list;
 mod load;
 mod macros;
+mod number;
 #[cfg(feature = "options")]
 mod options;
 mod pair;
@@ -49,6 +50,7 @@ pub use self::kind::{Form, Kind, Values, Word};
 pub use self::laws::{LAWS, Law, tabulated};
 pub use self::leak::{LeakAsked, LeakKeys};
 pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
+pub use self::number::{Measure, Number};
 #[cfg(feature = "options")]
 pub use self::options::Chosen;
 pub use self::pair::between;
@@ -67,6 +69,7 @@ pub(crate) use self::boundary::peak;
 pub(crate) use self::given::Read;
 pub(crate) use self::laws::WORK;
 pub(crate) use self::macros::{choice, keys, record};
+pub(crate) use self::number::is_told;
 pub(crate) use self::quantity::*;
 pub(crate) use self::units::{Units, is_unit};
 use crate::key::list::{Loads, parsed};

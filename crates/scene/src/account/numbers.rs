@@ -4,40 +4,10 @@ use serde_json::Value;
 
 use crate::account::{Account, INPUTS, LIMIT, OUTCOME, PLASTIC, PulledOff, Row, STATE, STIFFNESS, Step, interface};
 use crate::key::{
-    AREA, Dimension, ELECTRICAL_CONDUCTANCE, FORCE, Key, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    AREA, Dimension, ELECTRICAL_CONDUCTANCE, FORCE, Key, LENGTH, Measure, Number, PER_LENGTH, PER_PRESSURE, PRESSURE,
     THERMAL_CONDUCTANCE, TRANSMISSIVITY, Units,
 };
 use crate::numbers::{percent, rounded};
-
-/// A number of an answer, or a word or a table: a key of a report, and a column of tables.
-#[derive(Clone, Copy, Debug)]
-pub struct Number {
-    /// The name.
-    pub name: &'static str,
-    /// The meaning.
-    pub help: &'static str,
-    /// The type in Rust.
-    pub kind: &'static str,
-    /// The measure.
-    pub measure: Measure,
-    /// Whether a report has the number under its name: neither within others nor left out.
-    pub is_told: bool,
-}
-
-/// The measure of a number: how people read it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Measure {
-    /// In the unit of a dimension.
-    Of(Dimension),
-    /// In percent.
-    Share,
-    /// To two digits.
-    Error,
-    /// In seconds.
-    Seconds,
-    /// To four digits.
-    Plain,
-}
 
 /// The measures of columns that no record has.
 const COLUMNS: [(&str, Measure); 14] = [
@@ -73,11 +43,6 @@ impl Number {
         let lists = [STATE, OUTCOME, LIMIT, PLASTIC, STIFFNESS, INPUTS, interface::OUTCOME];
         lists.into_iter().flat_map(str::split_whitespace).any(|name| name == self.name)
     }
-}
-
-/// Whether a report has a field that is in this place, which is none for a number of its own.
-pub(crate) const fn is_told(place: &[&str]) -> bool {
-    place.is_empty()
 }
 
 impl Measure {

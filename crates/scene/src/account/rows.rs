@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::account::{Account, Measure, SUMMARY};
-use crate::key::{Skin, Units};
+use crate::account::{Account, SUMMARY};
+use crate::key::{Measure, Skin, Units};
 use crate::numbers::plain;
 
 /// The rows of a summary: their names, and their texts for each of the solves.

@@ -93,16 +93,16 @@ macro_rules! record {
 
         impl$(<$own: $of>)? $name$(<$own>)? {
             /// The numbers, in the order of a report.
-            pub const NUMBERS: &'static [$crate::account::Number] = &[$($crate::account::Number {
+            pub const NUMBERS: &'static [$crate::key::Number] = &[$($crate::key::Number {
                 name: stringify!($key),
                 help: concat!($($help),+),
                 kind: stringify!($type),
                 measure: [
-                    $($crate::account::Measure::Of($dimension),)?
-                    $($crate::account::Measure::$measure,)?
-                    $crate::account::Measure::Plain,
+                    $($crate::key::Measure::Of($dimension),)?
+                    $($crate::key::Measure::$measure,)?
+                    $crate::key::Measure::Plain,
                 ][0],
-                is_told: $crate::account::is_told(&[$(stringify!($place))?]),
+                is_told: $crate::key::is_told(&[$(stringify!($place))?]),
             },)*];
 
             /// The record of what is given.
