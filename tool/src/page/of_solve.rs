@@ -148,6 +148,8 @@ fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> S
             units.number(area * value, ENERGY)
         }
         _ if key == "corrected_contact_fraction" => corrected(value, counted),
+        // the distance of another branch, or of a departure, is relative; a column of tables with this name is a length
+        _ if key == "distance" => Measure::Share.text(value, units),
         measure => measure.text(value, units),
     }
 }
