@@ -54,7 +54,8 @@ impl Accuracy {
     ///
     /// `follow` follows the loop on a surface with a law, and returns its end: first on grids of a quarter and of half of
     /// the nodes along the sides. As long as the error of the [limit](LoopLimit) that is to be expected exceeds the
-    /// accuracy, it follows on a grid of twice as many, for which the surface is interpolated as by [`Accuracy::solve`].
+    /// accuracy, it follows on the next grid: the grid of the surface, and then grids of twice as many nodes, for which the
+    /// surface is interpolated as by [`Accuracy::solve`]. It ends before, if the error that is found there meets the accuracy.
     /// The loop on the grid that is returned is left to be followed: with the end on the last of the levels,
     /// [`LoopLimit::of`] tells its limit and its error. `operator` is the operator on the grid of the surface.
     ///
@@ -121,6 +122,14 @@ impl Accuracy {
             };
             let Some(end) = follow(&surface, &law.0)? else { return Ok(None) };
             levels.push((shape, end));
+            let [of_grid, of_jumps] = self.errors_of_loop(&levels);
+            let found = of_grid.hypot(of_jumps);
+            if found <= self.target {
+                // the limit of this grid is told by the coarser ones
+                levels.pop();
+                let (law, bytes, unaffordable) = (law.0, bytes(shape), None);
+                return Ok(Some(LoopGrid { surface, law, levels, expected: found, bytes, refinable, unaffordable }));
+            }
             law = on_twice(law, &surface, &fine);
             surface = fine;
         }

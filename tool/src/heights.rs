@@ -70,5 +70,6 @@ pub fn converted(path: &Path, map: Topography, unit: &str) -> Outcome<Topography
 
 /// Refuses a map with missing points.
 pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
-    Ok(complete(&Map::whole(named(path), map.clone()), false, Skin::Options)?)
+    let heights = (&map.heights, map.heights.dim());
+    Ok(complete(&path.to_string_lossy(), heights, false, Skin::Options)?)
 }

@@ -74,6 +74,12 @@ pub(crate) use self::quantity::*;
 pub(crate) use self::units::{Units, is_unit};
 use crate::key::list::{Loads, parsed};
 
+/// A parameter that a law or a body needs.
+pub(crate) fn needed(parameter: Option<f64>) -> asperity::Result<f64> {
+    let reason = "its law or its body lacks a parameter: give all that it needs";
+    parameter.ok_or(asperity::Error::Unsuited { what: "scene", reason })
+}
+
 /// A key of a scene.
 #[derive(Debug)]
 pub struct Key {

@@ -50,7 +50,7 @@ impl Map {
     }
 
     /// The name in messages.
-    pub(super) fn told(&self) -> &str {
+    pub(super) fn label(&self) -> &str {
         self.name.as_deref().unwrap_or("heights")
     }
 
@@ -67,7 +67,7 @@ impl Map {
         if !si {
             return Ok(self);
         }
-        let refused = format!("{} ", self.told());
+        let refused = format!("{} ", self.label());
         let topography =
             in_unit(self.topography, LENGTH.si).map_err(|text| worded(&format!("{refused}{text}"), skin))?;
         Ok(Self { topography, ..self })
@@ -82,7 +82,7 @@ impl Map {
 /// numbers have units, and for a unit that is none of length.
 pub fn sided(map: Map, given: &Given, si: bool, skin: Skin) -> Result<Map, String> {
     let mut map = map.in_metres_if(si, skin)?;
-    let (name, known, lengths) = (map.told(), map.topography.lengths, given.lengths(map.shape));
+    let (name, known, lengths) = (map.label(), map.topography.lengths, given.lengths(map.shape));
     let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;
     // a line has no width
     let agree =
@@ -110,17 +110,20 @@ pub fn sided(map: Map, given: &Given, si: bool, skin: Skin) -> Result<Map, Strin
     Err(worded(&text, skin))
 }
 
-/// Refuses a map with missing points, but for those that are NaN where they stand for absent nodes.
+/// Refuses heights with missing points, of a map with so many nodes in all, but for those that are NaN where they stand for absent nodes.
 ///
 /// # Errors
 /// The name, the first of them and the remedy, in the words of a skin.
-pub fn complete(map: &Map, absent_missing: bool, skin: Skin) -> Result<(), String> {
-    let heights = &map.topography.heights;
+pub fn complete(
+    name: &str,
+    (heights, (nx, ny)): (&Array2<f64>, (usize, usize)),
+    absent_missing: bool,
+    skin: Skin,
+) -> Result<(), String> {
     let of = |is: fn(f64) -> bool| heights.indexed_iter().filter(move |(_, height)| is(**height));
     let (infinite, missing) = (of(f64::is_infinite).count(), of(f64::is_nan).count());
-    let told = |kind: &str, count: usize, first: Option<((usize, usize), &f64)>, remedy: &str| {
-        let ((nx, ny), ((i, j), value)) = (map.shape, first.unwrap_or(((0, 0), &f64::NAN)));
-        let name = map.told();
+    let refuse = |kind: &str, count: usize, first: Option<((usize, usize), &f64)>, remedy: &str| {
+        let ((i, j), value) = first.unwrap_or(((0, 0), &f64::NAN));
         let text = format!(
             "{name}: {count} of {nx} x {ny} heights are {kind}, the first ({value}) at index [{i}, {j}]: {remedy}"
         );
@@ -129,11 +132,11 @@ pub fn complete(map: &Map, absent_missing: bool, skin: Skin) -> Result<(), Strin
     if infinite > 0 {
         let remedy =
             "correct them where they come from; if they stand for missing points, {prepare:fill=} gives them values";
-        return told("infinite", infinite, of(f64::is_infinite).next(), remedy);
+        return refuse("infinite", infinite, of(f64::is_infinite).next(), remedy);
     }
     if missing > 0 && !absent_missing {
         let remedy = "fill them by {prepare:fill=}, or treat them as absent nodes by {absent_missing=}";
-        return told("missing", missing, of(f64::is_nan).next(), remedy);
+        return refuse("missing", missing, of(f64::is_nan).next(), remedy);
     }
     Ok(())
 }

@@ -134,9 +134,9 @@ fn fits(key: &str, field: Option<&Array2<f64>>, (nx, ny): (usize, usize)) -> Res
 /// The surface of a map on its grid. Missing points become absent nodes, or are refused.
 fn surface(map: Map, grid: Grid, absent_missing: bool, skin: Skin) -> Outcome<Surface> {
     if !grid.is_shared() {
-        complete(&map, absent_missing, skin)?;
+        complete(map.label(), (&map.topography.heights, map.shape), absent_missing, skin)?;
     }
-    let name = map.told().to_owned();
+    let name = map.label().to_owned();
     let make = if absent_missing { surface_with_absent } else { Surface::new };
     make(grid, map.topography.heights).map_err(|error| match error {
         Error::Elsewhere { .. } => error.into(),

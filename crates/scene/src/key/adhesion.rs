@@ -137,7 +137,7 @@ impl Adhesion {
     }
 
     /// The value of a key in words, if it is given.
-    fn told(&self, key: &str) -> Option<String> {
+    fn text_of(&self, key: &str) -> Option<String> {
         match &json!(self)[key] {
             Value::Null => None,
             Value::String(text) => Some(text.clone()),
@@ -154,7 +154,7 @@ impl Adhesion {
         let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
         if law.needs.is_empty() {
             let mut keys = Law::keys().map(|key| key.name).chain(["cut_off", "work_of_adhesion_map"]);
-            if let Some(key) = keys.find(|key| self.told(key).is_some()) {
+            if let Some(key) = keys.find(|key| self.text_of(key).is_some()) {
                 return Err(format!(
                     "{{{key}}} is given, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
                      of adhesion with a range, or leave it out"
@@ -164,7 +164,7 @@ impl Adhesion {
         for parameter in Law::keys() {
             let key = parameter.name;
             let replaced = mapped && key == WORK;
-            let reason = match self.told(key) {
+            let reason = match self.text_of(key) {
                 None if law.needs.contains(&key) && !replaced => {
                     return Err(format!("{{law}} {name} lacks {{{key}}}: give it, {}", parameter.what()));
                 }

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Boundary, ENERGY, Form, Given, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Taken, Units, Word, keys, record,
+    Boundary, ENERGY, Form, Given, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Taken, Units, Word, keys, needed,
+    record,
 };
 
 keys! {
@@ -191,11 +192,6 @@ static BODIES: [BodyKind; 4] = [
         },
     },
 ];
-
-/// A parameter that a body needs.
-fn needed(parameter: Option<f64>) -> Result<f64> {
-    parameter.ok_or(Error::Unsuited { what: "body", reason: "it lacks a parameter: give all that it needs" })
-}
 
 /// A parameter as it is told; NaN of a body that lacks it, which nothing poses.
 fn or_nan(number: Option<f64>) -> f64 {

@@ -6,7 +6,7 @@ use asperity::adhesion::Formula;
 use asperity::{Error, Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
 use ndarray::ArrayRef2;
 
-use crate::key::{Adhesion, AdhesionKeys, Key, Keys, Skin, Wall, worded};
+use crate::key::{Adhesion, AdhesionKeys, Key, Keys, Skin, Wall, needed, worded};
 
 /// An adhesion law by its name.
 pub struct Law {
@@ -151,11 +151,6 @@ impl Law {
     pub(crate) fn keys() -> impl Iterator<Item = &'static Key> {
         AdhesionKeys::KEYS.iter().filter(|key| LAWS.iter().any(|law| law.needs.contains(&key.name)))
     }
-}
-
-/// A parameter that a law needs.
-fn needed(parameter: Option<f64>) -> Result<f64> {
-    parameter.ok_or(Error::Unsuited { what: "law", reason: "it lacks a parameter: give all that it needs" })
 }
 
 /// The law of a table of gaps and tractions, which was read from a file.
