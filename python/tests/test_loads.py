@@ -86,12 +86,12 @@ def test_a_cycle_has_the_accuracy_that_is_asked_for(caplog):
     tip = asperity.surface.paraboloid(32, 0.7, radius=2.0)
     keys = {"modulus": 1.0, "law": asperity.JKR(5e-5), "boundary": "free", "approaches": [-8e-3, 6e-3, -20e-3]}
     with caplog.at_level(logging.INFO, "asperity"):
-        cycle = asperity.cycle(tip, accuracy=0.05, accuracy_of="tension", **keys)
+        cycle = asperity.cycle(tip, accuracy=0.02, accuracy_of="tension", **keys)
     nodes = next(cycle).solution.heights.shape[0]
-    assert nodes > 32 and f"accuracy 0.05 of the tension: {nodes} x {nodes} nodes" in caplog.text
+    assert nodes > 32 and f"accuracy 0.02 of the tension: {nodes} x {nodes} nodes" in caplog.text
     limit = cycle.limit
-    assert limit.accuracy == {"wanted": 0.05, "of": "tension", "reached": True}
-    assert limit.tension_error < 0.05 * limit.tension
+    assert limit.accuracy == {"wanted": 0.02, "of": "tension", "reached": True}
+    assert limit.tension_error < 0.02 * limit.tension
     assert [level["shape"][0] for level in limit.levels] == [2**k for k in range(4, nodes.bit_length())]
     assert limit.levels[-1]["work"] == cycle.columns["work"][-1]
     with pytest.raises(ValueError, match="known of the law jkr alone"):
