@@ -33,7 +33,7 @@ nb_merge_streams = True
 nb_ipywidgets_js = {}
 # pages show no progress
 os.environ["TQDM_DISABLE"] = "1"
-exclude_patterns = ["conf.py", "elsewhere.py", "pictures.py"]
+exclude_patterns = ["conf.py", "elsewhere.py", "pictures.py", "recipe_files.py"]
 
 napoleon_use_ivar = True
 autodoc_typehints = "none"

@@ -9,16 +9,18 @@ import os
 import pathlib
 import re
 import runpy
+import shutil
 import warnings
 
 import numpy as np
 import pytest
-from force_curves import curve, cycled, rough_tip
 
 import asperity
 
-MAP = runpy.run_path(str(pathlib.Path(__file__).resolve().parents[1] / "benches" / "curve_map.py"))
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python" / "recipes.md"
+for package in ("matplotlib", "scipy", "afmformats"):
+    pytest.importorskip(package)
+FILES = runpy.run_path(str(PAGE.parents[1] / "recipe_files.py"))
 #: A recipe, and below it what it prints.
 RECIPE = re.compile(r"^### (.*?)\n.*?^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
 RECIPES = {title: code for title, code, _ in RECIPE.findall(PAGE.read_text())}
@@ -130,7 +132,7 @@ def a_force_curve(found):
 def a_map_of_force_curves(found):
     map, table = found["found"], found["table"]
     assert map.shape == (3, 3) and (map.reason == "").all() and len(table) == 9
-    assert map.young.value == pytest.approx(0.75 * MAP["made"](3, 200, 2e-5)[1], rel=0.01)
+    assert map.young.value == pytest.approx(0.75 * FILES["MAP"]["made"](3, 200, 2e-5)[1], rel=0.01)
     assert pathlib.Path("map.png").stat().st_size > 1000
 
 
@@ -287,18 +289,6 @@ def an_electrical_contact_with_adhesion(found):
     assert all(not sticky.report["under_resolved"] for _, sticky in found["found"].values())
 
 
-def write_map(path):
-    """A map of 3 x 3 force curves, in the layout of afmformats."""
-    formats, h5py = pytest.importorskip("afmformats"), pytest.importorskip("h5py")
-    metadata = {"imaging mode": "force-distance", "spring constant": MAP["STIFFNESS"], "path": path}
-    metadata |= {f"grid shape {axis}": 3 for axis in "xy"} | {f"grid size {axis}": 1e-6 for axis in "xy"}
-    with h5py.File(path, "w") as file:
-        for number, (z, force) in enumerate(MAP["made"](3, 200, 2e-5)[0].reshape(9, 2, 200)):
-            data = {"height (measured)": -z, "force": force, "segment": np.repeat([0, 1], 100).astype(np.uint8)}
-            here = {**metadata, "enum": number, "grid index x": number // 3, "grid index y": number % 3}
-            formats.AFMForceDistance(data, here).export_data(file, metadata=True, fmt="hdf5")
-
-
 def written(title, printed):
     """The page with what a recipe prints."""
 
@@ -316,20 +306,19 @@ def words_and_numbers(text):
     return re.split(number, text), [float(found) for found in re.findall(number, text)]
 
 
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """The folder of the files that recipes read."""
+    folder = tmp_path_factory.mktemp("files")
+    FILES["write_all"](folder)
+    return folder
+
+
 @pytest.mark.parametrize("title", RECIPES)
-def test_the_recipe_runs(title, tmp_path, monkeypatch, capsys):
-    pytest.importorskip("matplotlib")
-    pytest.importorskip("scipy")
+def test_the_recipe_runs(title, files, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    heading = {"delimiter": ",", "header": "Height (nm),Force (nN)", "comments": ""}
-    np.savetxt("curve.csv", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)), **heading)
-    if "map of force curves" in title:
-        write_map("map.h5")
-    if "curve of a rough tip" in title:
-        warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
-        tip = rough_tip()
-        np.savez("tip.npz", heights=tip.heights, lengths=tip.lengths, unit="m")
-        np.savetxt("rough.csv", 1e9 * np.column_stack(cycled(tip, 2e9, 0.04, 10.0)), **heading)
+    for file in files.iterdir():
+        shutil.copy(file, tmp_path)
     found = {}
     exec(RECIPES[title], found)
     page = written(title, capsys.readouterr().out)
