@@ -238,14 +238,8 @@ impl Nested {
             (None, None) => default,
         };
         let mut solved = solver.run(problem.parts(), control, begin, &mut watch)?;
-        let report = &solved.solution.report;
-        let lost = match report.status {
-            // at the floor of rounding another start would stall as well
-            Status::Stalled => report.relative_error.max(report.load_error) > self.coarse_tolerance,
-            status => status == Status::Detached,
-        };
-        if started && lost {
-            spent += report.operator_applications;
+        if started && self.has_lost(&solved.solution.report) {
+            spent += solved.solution.report.operator_applications;
             drop(solved);
             solved = solver.run(problem.parts(), control, Begin::At(Start::Default), &mut watch)?;
         }
@@ -257,6 +251,15 @@ impl Nested {
         Ok((solved, levels))
     }
 
+    /// Whether a solve from a coarser grid is of no use.
+    fn has_lost(&self, report: &Report) -> bool {
+        match report.status {
+            // at the floor of rounding another start would stall as well
+            Status::Stalled => report.relative_error.max(report.load_error) > self.coarse_tolerance,
+            status => status == Status::Detached,
+        }
+    }
+
     fn solve_coarser<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -266,23 +269,15 @@ impl Nested {
         control: Control,
         watch: GridObserver<'_>,
     ) -> Result<(Vec<Level>, Option<Deformed<T>>)> {
-        let varies = law.hints().shape.is_some();
-        let alike = !varies && solver.constraint.wall().is_rigid();
-        let touching = Touching::of(solver.constraint.wall(), &**law);
+        let (varies, wall) = (law.hints().shape.is_some(), solver.constraint.wall());
+        let (rigid, touching) = (wall.is_rigid(), Touching::of(wall, &**law));
         let tolerance = self.coarse_tolerance.max(solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
         while let Some(coarse) = surfaces.pop() {
-            let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
             let half_space = operators.on(*coarse.grid())?;
-            let [here, finest] = [coarse.grid(), surface.grid()].map(|grid| mu_rho(&**law, grid, half_space.modulus()));
-            let coarse_law = if here <= Report::RESOLVED_MU_RHO {
-                law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).map_or_else(|| law.clone(), SharedLaw)
-            } else if alike && finest <= Report::RESOLVED_MU_RHO {
-                SharedLaw::new(Jkr::with_range_of_grid(law.hints().work_of_adhesion.widen())?)
-            } else {
-                continue;
-            };
+            let grids = [coarse.grid(), surface.grid()];
+            let Some(coarse_law) = coarsened_law(law, grids, half_space.modulus(), rigid)? else { continue };
             let mut problem = Problem::of(&coarse, half_space, coarse_law)?;
             let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), touching));
             let mut begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
@@ -332,6 +327,24 @@ impl Nested {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
+}
+
+/// The law on a coarse grid that leads to a finer one; none if it does not resolve the adhesion.
+fn coarsened_law<T: Real>(
+    law: &SharedLaw<T>,
+    [coarse, fine]: [&Grid; 2],
+    modulus: f64,
+    rigid: bool,
+) -> Result<Option<SharedLaw<T>>> {
+    let resolves = |grid| mu_rho(&**law, grid, modulus) <= Report::RESOLVED_MU_RHO;
+    let ((nx, ny), (cx, cy), hints) = (fine.shape(), coarse.shape(), law.hints());
+    if resolves(coarse) {
+        let adapted = law.adapted(Discretisation::Coarse(nx / cx, ny / cy));
+        return Ok(Some(adapted.map_or_else(|| law.clone(), SharedLaw)));
+    }
+    let alike = rigid && hints.shape.is_none() && resolves(fine);
+    let on_grid = || Jkr::with_range_of_grid(hints.work_of_adhesion.widen()).map(SharedLaw::new);
+    alike.then(on_grid).transpose()
 }
 
 /// The branch of the default start of a problem.

@@ -30,16 +30,17 @@ mod saddle;
 mod settings;
 mod sharp;
 mod step;
+mod trial;
 
 use account::Account;
 pub use account::PathEnd;
 use balance::Balance;
 use course::{Course, Way};
 pub use event::{Event, Jump};
-use figures::Mode;
 pub use settings::PathSettings;
 use sharp::Sharp;
 pub use step::PathStep;
+use trial::{Judgement, Trial};
 
 /// A path of equilibria: the states of a branch that is followed from load to load in small steps, with its jumps.
 ///
@@ -344,8 +345,29 @@ impl<T: Real> Path<T> {
         solved
     }
 
-    /// One step; `None` if it has to be taken back and halved.
+    /// One step, unless its trial is not taken.
     fn attempt(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
+        let Some(trial) = self.try_step(bench)? else { return Ok(None) };
+        match trial.judge(&self.course) {
+            Judgement::Take => return self.take(bench, trial),
+            Judgement::Halve => {
+                self.course.halve(&trial.solved.solution.report, trial.balance, &self.settings);
+                // the place of the jump does matter where it is asked for, and at the largest tension
+                let kept = trial.settled() && self.settings.smallest_step.is_none() && !trial.balance.peaks;
+                self.ahead = kept.then(|| trial.solved.with_place().1);
+            }
+            Judgement::Turn { limit_point } => {
+                let range = bench.problem.law_on_grid().hints().range.widen();
+                let far = 2.0 * (bench.problem.flat.height_span + 10.0 * range);
+                let close = bench.closest(self.course.end());
+                self.course.leave_pressure_control((close, far), limit_point, &self.settings);
+            }
+        }
+        Ok(None)
+    }
+
+    /// Solves at the next target; the path has failed where the observer stopped the solve.
+    fn try_step(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<Trial<T>>> {
         let (target, smallest) = self.course.next_target(&self.settings);
         let control = self.course.control(target);
         let (start, came_there) = self.predict(bench, target);
@@ -357,56 +379,50 @@ impl<T: Real> Path<T> {
                 solved = self.solve(bench, control, Begin::Found(solved.with_place().1))?;
             }
         }
-        let (settled, report) = (solved.is_settled(), &solved.solution.report);
-        if report.status == Status::Stopped {
+        if solved.solution.report.status == Status::Stopped {
             self.failed = true;
             return Ok(None);
         }
+        let balance = self.balance(bench, target, &solved.solution.report);
+        let touches = solved.touches || came_there;
+        let mut trial = Trial { target, smallest, touches, solved, balance, saddle: None };
+        if trial.may_be_taken() {
+            trial.saddle = self.saddle(bench, &trial.solved.solution)?;
+        }
+        Ok(Some(trial))
+    }
+
+    /// The balance of a step to a state.
+    fn balance(&self, bench: &Bench<'_, T>, target: f64, report: &Report) -> Balance {
         let hints = bench.problem.law_on_grid().hints();
-        let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
         let flat = bench.problem.flat.work * bench.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as the energy of flat
         // surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // the tolerance's share in it
         let left = report.tolerance.powi(2) * flat;
-        let noise = (rounding, left);
-        let scale = (self.settings.imbalance, 1e-3 * w);
-        let judge = |course: &Course, report: &Report| {
-            let trial = course.judge(target, report, scale, noise, hints.touches());
-            // only adhesion makes surfaces jump
-            if hints.zero { Balance { jumped: false, located: false, ..trial } } else { trial }
-        };
-        let mut trial = judge(&self.course, report);
-        let good = trial.balanced && settled;
-        let jumped = settled && !good && trial.located && self.settings.smallest_step.is_none();
-        let saddle = if settled && (good || smallest || jumped) { self.saddle(bench, &solved.solution)? } else { None };
-        let lost = good && saddle.is_some() && !self.course.on_saddle;
-        if (!good && !jumped || lost) && !smallest {
-            self.course.halve(report, trial, &self.settings);
-            // the place of the jump does matter where it is asked for, and at the largest tension
-            let kept = settled && self.settings.smallest_step.is_none() && !trial.peaks;
-            self.ahead = kept.then(|| solved.with_place().1);
-            return Ok(None);
-        }
-        let detached = report.status == Status::Detached;
-        if self.course.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
-            let far = 2.0 * (bench.problem.flat.height_span + 10.0 * range);
-            let close = bench.closest(self.course.end());
-            self.course.leave_pressure_control((close, far), !lost, &self.settings);
-            return Ok(None);
-        }
-        let mut way = Way { jumped: trial.jumped && !good, touches: solved.touches || came_there, bifurcation: None };
+        let scale = (self.settings.imbalance, 1e-3 * hints.work_of_adhesion.widen());
+        let balance = self.course.balance(target, report, scale, (rounding, left), hints.touches());
+        // only adhesion makes surfaces jump
+        let (jumped, located) = (balance.jumped && !hints.zero, balance.located && !hints.zero);
+        Balance { jumped, located: located && self.settings.smallest_step.is_none(), ..balance }
+    }
+
+    /// Takes a step, from a saddle on to a state that is none; nothing if it is shortened instead, or was stopped.
+    fn take(&mut self, bench: &mut Bench<'_, T>, trial: Trial<T>) -> Result<Option<PathStep<T>>> {
+        let (good, target) = (trial.is_good(), trial.target);
+        let Trial { mut solved, mut balance, saddle, touches, .. } = trial;
+        let mut way = Way { jumped: balance.jumped && !good, touches, bifurcation: None };
         let mut on_saddle = saddle.is_some();
         if let Some(saddle) = saddle {
-            let (left, drawn) = self.leave(bench, &solved.solution, control)?;
+            let (left, drawn) = self.leave(bench, &solved.solution, self.course.control(target))?;
             if self.failed {
                 return Ok(None);
             }
             if let Some(left) = left {
                 (solved, on_saddle) = (left, false);
-                trial = judge(&self.course, &solved.solution.report);
-                way.jumped |= trial.jumped && !trial.balanced;
+                balance = self.balance(bench, target, &solved.solution.report);
+                way.jumped |= balance.jumped && !balance.balanced;
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }
         }
@@ -414,7 +430,7 @@ impl<T: Real> Path<T> {
         if self.course.overshoots(report, &self.settings) {
             return Ok(None);
         }
-        let event = self.course.accept(target, report, trial, way, &self.settings);
+        let event = self.course.accept(target, report, balance, way, &self.settings);
         self.course.on_saddle = on_saddle;
         if way.is_new() {
             self.places.clear();

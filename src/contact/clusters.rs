@@ -49,23 +49,7 @@ impl Clusters {
     /// The clusters on a map with opposite sides along x, and along y, that meet or do not.
     pub(super) fn meeting(map: ArrayView2<'_, bool>, [meets_x, meets_y]: [bool; 2]) -> Self {
         let (nx, ny) = map.dim();
-        // the runs of nodes side by side along y, from the first to behind the last, and how many are before each row
-        let (mut runs, mut before) = (Vec::new(), vec![0]);
-        for row in map.outer_iter() {
-            let mut first = None;
-            for (j, &inside) in row.iter().enumerate() {
-                match first {
-                    None if inside => first = Some(j),
-                    Some(start) if !inside => {
-                        runs.push((start, j));
-                        first = None;
-                    }
-                    _ => {}
-                }
-            }
-            runs.extend(first.map(|start| (start, ny)));
-            before.push(runs.len());
-        }
+        let (runs, before) = runs(map);
         // each run's parent, which comes before it in its tree
         let mut tree: Vec<usize> = (0..runs.len()).collect();
         for i in 0..nx {
@@ -109,6 +93,27 @@ impl Clusters {
         sizes.sort_by_key(|&size| Reverse(size));
         Self { sizes, labels }
     }
+}
+
+/// The runs of nodes side by side along y, from the first to behind the last, and how many are before each row.
+fn runs(map: ArrayView2<'_, bool>) -> (Vec<(usize, usize)>, Vec<usize>) {
+    let (mut runs, mut before) = (Vec::new(), vec![0]);
+    for row in map.outer_iter() {
+        let mut first = None;
+        for (j, &inside) in row.iter().enumerate() {
+            match first {
+                None if inside => first = Some(j),
+                Some(start) if !inside => {
+                    runs.push((start, j));
+                    first = None;
+                }
+                _ => {}
+            }
+        }
+        runs.extend(first.map(|start| (start, row.len())));
+        before.push(runs.len());
+    }
+    (runs, before)
 }
 
 /// Joins the clusters of two runs.

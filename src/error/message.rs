@@ -25,34 +25,7 @@ impl fmt::Display for Error {
                     first.0, first.1
                 )
             }
-            Self::Contract { breach: Breach::Attract, .. } => {
-                f.write_str("the traction of the law is positive at no gap: the law repels, and attracts nowhere")
-            }
-            Self::Contract { value, place: Place::Gap(gap), breach: Breach::Sign(rise), .. } => write!(
-                f,
-                "the traction of the law is {value:e} at a gap of {gap:e}, where the energy of the law {} with the gap: the \
-                 traction is the derivative of the energy, and positive where the surfaces attract each other: change \
-                 the sign of one of the two",
-                if *rise > 0.0 { "rises" } else { "falls" }
-            ),
-            Self::Contract { place: Place::Gap(gap), breach: Breach::Rough, .. } => write!(
-                f,
-                "the functions of the law do not agree with one another, or are rough, at gaps from {gap:e} on: the \
-                 traction must be the derivative of the energy, the slope the derivative of the traction; check_functions \
-                 says which is not"
-            ),
-            Self::Contract { place: Place::Gap(gap), breach: Breach::Decay(range), .. } => write!(
-                f,
-                "the law still has a traction at a gap of {gap:e}, {:.0} times its range of {range:e}: give it a range, \
-                 the length over which the traction decays",
-                gap / range
-            ),
-            Self::Contract { function, value, place, breach } => {
-                write!(f, "the {function} is {}{place}", Short(*value))?;
-                let (other, rule) = breach.words(function);
-                other.map_or(Ok(()), |other| write!(f, ", and {}", Short(other)))?;
-                f.write_str(rule)
-            }
+            Self::Contract { function, value, place, breach } => breach.write(f, (function, *value), *place),
             Self::Raised(cause) => write!(f, "{}", cause.0),
             Self::Unsuited { what, reason } => write!(f, "{what}: {reason}"),
             Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => {
@@ -104,6 +77,40 @@ impl fmt::Display for Place {
 }
 
 impl Breach {
+    /// The message of the breach by a function that has a value at a place.
+    fn write(self, f: &mut fmt::Formatter<'_>, (function, value): (&str, f64), place: Place) -> fmt::Result {
+        match (self, place) {
+            (Self::Attract, _) => {
+                f.write_str("the traction of the law is positive at no gap: the law repels, and attracts nowhere")
+            }
+            (Self::Sign(rise), Place::Gap(gap)) => write!(
+                f,
+                "the traction of the law is {value:e} at a gap of {gap:e}, where the energy of the law {} with the gap: the \
+                 traction is the derivative of the energy, and positive where the surfaces attract each other: change \
+                 the sign of one of the two",
+                if rise > 0.0 { "rises" } else { "falls" }
+            ),
+            (Self::Rough, Place::Gap(gap)) => write!(
+                f,
+                "the functions of the law do not agree with one another, or are rough, at gaps from {gap:e} on: the \
+                 traction must be the derivative of the energy, the slope the derivative of the traction; check_functions \
+                 says which is not"
+            ),
+            (Self::Decay(range), Place::Gap(gap)) => write!(
+                f,
+                "the law still has a traction at a gap of {gap:e}, {:.0} times its range of {range:e}: give it a range, \
+                 the length over which the traction decays",
+                gap / range
+            ),
+            _ => {
+                write!(f, "the {function} is {}{place}", Short(value))?;
+                let (other, rule) = self.words(function);
+                other.map_or(Ok(()), |other| write!(f, ", and {}", Short(other)))?;
+                f.write_str(rule)
+            }
+        }
+    }
+
     /// The value that a function contradicts, and what follows it.
     fn words(self, function: &str) -> (Option<f64>, &'static str) {
         match self {

@@ -64,7 +64,7 @@ impl Balance {
 impl Course {
     /// The balance of a step, up to an imbalance as a share of the change of the energy (`least` at least) and of what
     /// jumps have dissipated, the noise of rounding, and what the tolerance of the solver has `left`.
-    pub(super) fn judge(
+    pub(super) fn balance(
         &self,
         target: f64,
         report: &Report,

@@ -250,6 +250,7 @@ impl Course {
         !smallest
     }
 
+    /// Takes a step to the state of a report, with its balance.
     pub(super) fn accept(
         &mut self,
         target: f64,
@@ -266,57 +267,84 @@ impl Course {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
+        let drop = self.book([here, next], target, trial, way);
+        let event = self.event([here, next], drop, way);
+        self.step = self.next_step([here, next], target, trial, way, settings);
+        self.arrive(next, way);
+        self.land(next, settings);
+        event
+    }
+
+    /// Adds a step to the account; returns the energy that a jump in it dissipates.
+    fn book(&mut self, [here, next]: [Figures; 2], target: f64, trial: Balance, way: Way) -> f64 {
         let Account { work, dissipated, imbalance, variance, range, tension, touches } = &mut self.account;
         *range = (range.0.min(next.energy), range.1.max(next.energy));
         *tension = tension.max(-next.pressure);
         *touches += usize::from(way.touches);
-        let mut event =
-            self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
-        let mut jump = Jump {
+        if !way.jumped {
+            *work += trial.work;
+            *imbalance += trial.excess;
+            *variance += trial.excess.powi(2);
+            return 0.0;
+        }
+        // the jump is anywhere in the step, each place as likely as another
+        let done = -trapezoid((here.position, here.pressure), (next.position, next.pressure));
+        let [(from, before), (_, after)] = [here, next].map(|place| place.slope(self.mode));
+        *variance += ((target - from) * (after - before)).powi(2) / 12.0;
+        let drop = done - (next.energy - here.energy);
+        *work += done;
+        *dissipated += drop;
+        drop
+    }
+
+    /// The event in a step, that the account has.
+    fn event(&mut self, [here, next]: [Figures; 2], energy_drop: f64, way: Way) -> Option<Event> {
+        let limit = self.limit.take();
+        let jump = Jump {
             mean_gap: (here.gap, next.gap),
             mean_pressure: (here.pressure, next.pressure),
             approach: self.free.then_some((-here.position, -next.position)),
             contact_fraction: (here.contact, next.contact),
             touches: way.touches,
-            energy_drop: 0.0,
+            energy_drop,
         };
-        let jumped = way.jumped;
-        if jumped {
-            // the jump is anywhere in the step, each place as likely as another
-            let done = -trapezoid((here.position, here.pressure), (next.position, next.pressure));
-            let [(from, before), (_, after)] = [here, next].map(|place| place.slope(self.mode));
-            *variance += ((target - from) * (after - before)).powi(2) / 12.0;
-            jump.energy_drop = done - (next.energy - here.energy);
-            *work += done;
-            *dissipated += jump.energy_drop;
-        } else {
-            *work += trial.work;
-            *imbalance += trial.excess;
-            *variance += trial.excess.powi(2);
+        match way.bifurcation {
+            Some(eigenvalue) => Some(Event::Bifurcation { eigenvalue, jump }),
+            None if way.jumped => Some(Event::Jump(jump)),
+            None => limit.map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure }),
         }
-        if let Some(eigenvalue) = way.bifurcation {
-            event = Some(Event::Bifurcation { eigenvalue, jump });
-        } else if jumped {
-            event = Some(Event::Jump(jump));
-        }
-        if way.is_new() {
-            self.places.clear();
-            self.at.clear();
-        }
+    }
+
+    /// The length of the step after one to `target`.
+    fn next_step(
+        &mut self,
+        [here, next]: [Figures; 2],
+        target: f64,
+        trial: Balance,
+        way: Way,
+        settings: &PathSettings,
+    ) -> f64 {
         let taken = (target - here.slope(self.mode).0).abs();
         let largest = self.length() / settings.steps as f64;
-        // a short last step says nothing about the next one
-        let grown = (taken * trial.growth).max(self.step.min(taken));
-        let next_step = match self.bracket.take() {
+        let step = match self.bracket.take() {
             Some(bracket) if way.is_new() => taken.max(REGAINED * bracket.stride),
             None if way.is_new() => taken,
             Some(bracket) if bracket.end.0 != target => {
                 self.bracket = Some(bracket);
                 bracket.next_step(next.slope(self.mode), next.potential(self.mode), trial)
             }
-            _ => grown,
+            // a short last step says nothing about the next one
+            _ => (taken * trial.growth).max(self.step.min(taken)),
         };
-        self.step = next_step.clamp(self.smallest(settings).min(largest), largest);
+        step.clamp(self.smallest(settings).min(largest), largest)
+    }
+
+    /// Keeps a state as the last one of the branch.
+    fn arrive(&mut self, next: Figures, way: Way) {
+        if way.is_new() {
+            self.places.clear();
+            self.at.clear();
+        }
         if self.places.len() == PLACES - 1 {
             self.places.remove(0);
         }
@@ -325,16 +353,18 @@ impl Course {
         }
         self.places.push(next);
         self.at.push(next);
-        if let Some((end, start)) = self.pressures {
-            let short = (end - next.pressure) * (end - start).signum();
-            if short <= LANDING * (end - start).abs() {
-                self.end_leg();
-            } else if !self.free && end > start && next.gap == self.span.1 {
-                // pressed flat, the surfaces bear any pressure
-                self.pressures = None;
-                self.turn(Mode::Pressure, end, settings);
-            }
+    }
+
+    /// Ends a leg to a pressure at given mean gaps where it has arrived, or goes on to the pressure itself.
+    fn land(&mut self, next: Figures, settings: &PathSettings) {
+        let Some((end, start)) = self.pressures else { return };
+        let short = (end - next.pressure) * (end - start).signum();
+        if short <= LANDING * (end - start).abs() {
+            self.end_leg();
+        } else if !self.free && end > start && next.gap == self.span.1 {
+            // pressed flat, the surfaces bear any pressure
+            self.pressures = None;
+            self.turn(Mode::Pressure, end, settings);
         }
-        event
     }
 }

@@ -52,39 +52,55 @@ pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Resul
     }
 }
 
+/// Refuses a surface, an operator and a law that are not on one grid.
+fn check<T: Real>(surface: &Surface, operator: &dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<()> {
+    let (boundary, grid) = (operator.boundary(), surface.grid());
+    let expected = match boundary {
+        Boundary::Periodic => *operator.grid(),
+        Boundary::Free { window, .. } => window,
+    };
+    Error::shape("surface", grid.shape(), expected.shape())?;
+    if grid.is_shared() != operator.grid().is_shared() {
+        let reason = "surface and operator have to be on one grid: make both on the shared one";
+        return Err(Error::Shared { what: "contact", reason });
+    }
+    if !operator.takes_slabs() {
+        operator.grid().slab().alone("elastic operator")?;
+    }
+    check_law(law, grid)?;
+    let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
+    Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
+    if boundary != Boundary::Periodic {
+        Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
+    }
+    if grid.lengths() != expected.lengths() {
+        let (name, value) = match grid.lengths() {
+            (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
+            (_, ly) => ("side length Ly of the surface", ly),
+        };
+        return Err(Error::Value { name, value, requirement: "as on the grid of the elastic operator" });
+    }
+    Ok(())
+}
+
+/// The lowest and the highest height that faces the body.
+fn extremes(surface: &Surface) -> (f64, f64) {
+    let faces = |(&height, absent): (&f64, &bool)| (!absent).then_some(height);
+    let (grid, heights) = (surface.grid(), surface.heights());
+    let facing = surface.absent().map(|absent| heights.iter().zip(absent).filter_map(faces).collect());
+    let (low, high) = range(&facing.unwrap_or_else(|| ordered(heights.view())));
+    let low = grid.each(low).into_iter().fold(f64::INFINITY, f64::min);
+    (low, grid.each(high).into_iter().fold(f64::NEG_INFINITY, f64::max))
+}
+
 impl<T: Real> PressedFlat<T> {
     pub(crate) fn of(
         surface: &Surface,
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
-        let (boundary, far_compliance) = (operator.boundary(), operator.far_compliance());
-        let (grid, expected) = match boundary {
-            Boundary::Periodic => (surface.grid(), *operator.grid()),
-            Boundary::Free { window, .. } => (surface.grid(), window),
-        };
-        Error::shape("surface", grid.shape(), expected.shape())?;
-        let (slab, one) =
-            (operator.grid().slab(), "surface and operator have to be on one grid: make both on the shared one");
-        if grid.is_shared() != slab.is_shared() {
-            return Err(Error::Shared { what: "contact", reason: one });
-        }
-        if !operator.takes_slabs() {
-            slab.alone("elastic operator")?;
-        }
-        check_law(law, grid)?;
-        let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
-        Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
-        if boundary != Boundary::Periodic {
-            Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
-        }
-        if grid.lengths() != expected.lengths() {
-            let (name, value) = match grid.lengths() {
-                (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
-                (_, ly) => ("side length Ly of the surface", ly),
-            };
-            return Err(Error::Value { name, value, requirement: "as on the grid of the elastic operator" });
-        }
+        check(surface, operator, law)?;
+        let (grid, slab) = (surface.grid(), operator.grid().slab());
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
         slab.afford("a solve", 3 * size_of::<T>() + 16)?;
         let window = Window::new(surface, operator.grid());
@@ -100,13 +116,7 @@ impl<T: Real> PressedFlat<T> {
         let [datum, above] = whole.datum_and_mean();
         let mean = datum + above;
         let rms_height = whole.rms_about(mean);
-        // where nothing faces the body there is no height
-        let faces = |(&height, absent): (&f64, &bool)| (!absent).then_some(height);
-        let heights = surface.heights();
-        let facing = surface.absent().map(|absent| heights.iter().zip(absent).filter_map(faces).collect());
-        let (low, high) = range(&facing.unwrap_or_else(|| ordered(heights.view())));
-        let low = grid.each(low).into_iter().fold(f64::INFINITY, f64::min);
-        let high = grid.each(high).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = extremes(surface);
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };
@@ -131,8 +141,8 @@ impl<T: Real> PressedFlat<T> {
             peak,
             height_span,
             window,
-            boundary,
-            far_compliance,
+            boundary: operator.boundary(),
+            far_compliance: operator.far_compliance(),
             area: lx * ly,
             padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
             yielded: None,

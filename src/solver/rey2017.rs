@@ -98,54 +98,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             // uphill, or beyond all numbers: the norm of the residual has jumped, as rounding may let it
             slope = self.conjugate_direction(0.0);
         }
-        let Fields { change, preconditioned: response, .. } = &mut self.fields;
-        self.posed.operators.corrections().pressure(change.view(), response.view_mut())?;
-        self.counters.applications += 1;
-
-        let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
-        let pass = read(gap).zip(read(change)).zip(read(response));
-        let [curvature, response, t] = reducer.run(pass, |_, ((gap, direction), response)| {
-            let [mut curvature, mut responses, mut sum] = [0.0; 3];
-            for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
-                if apart(gap) {
-                    let [t, response] = [t, response].map(Lo::widen);
-                    curvature += response * t;
-                    responses += response;
-                    sum += t;
-                }
-            }
-            [curvature, responses, sum]
-        });
-        let mean = if self.posed.is_gap_controlled() { response / self.sums.tally.free } else { 0.0 };
-        let length = slope / (curvature - mean * t);
-        // a uniform direction has no curvature: the softest wave bounds the step
-        let softest = self.posed.operators.state().stiffness_range().0;
-        let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
-        // nor has one that is uniform up to rounding
-        let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
-        if !length.is_finite() {
-            return Ok(false);
-        }
-
+        let Some(length) = self.length_of_paper(slope)? else { return Ok(false) };
         let length = T::lit(length);
-        let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
-        let pass = write(gap).zip(read(residual)).zip(read(change));
-        let [sum, released, clipped] = reducer.run(pass, |_, ((gap, residual), direction)| {
-            let [mut sum, mut released, mut clipped] = [0.0; 3];
-            for ((gap, &r), &t) in gap.iter_mut().zip(residual).zip(direction) {
-                let next = *gap - length * cast(t);
-                clipped += f64::from(u8::from(projects && next < T::zero()));
-                *gap = if projects { next.max(T::zero()) } else { next };
-                if projects && *gap <= T::zero() && r < Lo::zero() {
-                    *gap = -length * cast(r);
-                    released += 1.0;
-                }
-                sum += gap.widen();
-            }
-            [sum, released, clipped]
-        });
+        let [sum, released, clipped] = self.advance_by(length);
         let scale = match self.posed.load {
-            Load::Gap(mean) if projects => mean * self.posed.nodes() / sum,
+            Load::Gap(mean) if self.posed.projects() => mean * self.posed.nodes() / sum,
             _ => 1.0,
         };
         if !scale.is_finite() {
@@ -169,6 +126,58 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         self.residual();
         Ok(true)
+    }
+
+    /// The length of a step along the direction, which goes uphill by `slope`; none without bounds.
+    fn length_of_paper(&mut self, slope: f64) -> Result<Option<f64>> {
+        let projects = self.posed.projects();
+        let apart = move |gap: T| !projects || gap > T::zero();
+        let Fields { change, preconditioned: response, .. } = &mut self.fields;
+        self.posed.operators.corrections().pressure(change.view(), response.view_mut())?;
+        self.counters.applications += 1;
+        let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
+        let pass = read(gap).zip(read(change)).zip(read(response));
+        let [curvature, response, t] = reducer.run(pass, |_, ((gap, direction), response)| {
+            let [mut curvature, mut responses, mut sum] = [0.0; 3];
+            for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
+                if apart(gap) {
+                    let [t, response] = [t, response].map(Lo::widen);
+                    curvature += response * t;
+                    responses += response;
+                    sum += t;
+                }
+            }
+            [curvature, responses, sum]
+        });
+        let mean = if self.posed.is_gap_controlled() { response / self.sums.tally.free } else { 0.0 };
+        let length = slope / (curvature - mean * t);
+        // a uniform direction has no curvature: the softest wave bounds the step
+        let softest = self.posed.operators.state().stiffness_range().0;
+        let length = if length.is_finite() && length > 0.0 { length } else { 1.0 / softest };
+        // nor has one that is uniform up to rounding
+        let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
+        Ok(length.is_finite().then_some(length))
+    }
+
+    /// Takes a step of a length; returns Σ g, and the numbers of nodes that were released and clipped.
+    fn advance_by(&mut self, length: T) -> [f64; 3] {
+        let projects = self.posed.projects();
+        let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
+        let pass = write(gap).zip(read(residual)).zip(read(change));
+        reducer.run(pass, |_, ((gap, residual), direction)| {
+            let [mut sum, mut released, mut clipped] = [0.0; 3];
+            for ((gap, &r), &t) in gap.iter_mut().zip(residual).zip(direction) {
+                let next = *gap - length * cast(t);
+                clipped += f64::from(u8::from(projects && next < T::zero()));
+                *gap = if projects { next.max(T::zero()) } else { next };
+                if projects && *gap <= T::zero() && r < Lo::zero() {
+                    *gap = -length * cast(r);
+                    released += 1.0;
+                }
+                sum += gap.widen();
+            }
+            [sum, released, clipped]
+        })
     }
 
     /// The direction t = r' + `conjugate` t where the surfaces are apart; returns ⟨r', t⟩.

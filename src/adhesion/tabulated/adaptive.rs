@@ -31,6 +31,30 @@ struct Candidate {
     end: f64,
 }
 
+impl Candidate {
+    fn middle(&self) -> f64 {
+        0.5 * (self.start + self.end)
+    }
+
+    /// The piece between the ends, if it agrees with all values, or the interval cannot be halved.
+    fn piece(&self, values: &[[f64; 3]], sizes: [f64; 3], range: f64) -> Option<Piece> {
+        let (start, middle, end) = (self.start, self.middle(), self.end);
+        let narrow = middle <= start || middle >= end;
+        let piece = Piece::between((start, end), values[0], values[if narrow { 0 } else { 4 }], range);
+        let agrees = |k: usize| {
+            let found = piece.at(PLACES[k], range);
+            (0..2).all(|n| (found[n] - values[k][n]).abs() <= TOLERANCE * sizes[n])
+        };
+        (narrow || (1..PLACES.len()).all(agrees)).then_some(piece)
+    }
+
+    fn halves(&self) -> [Self; 2] {
+        let Self { interval, start, end } = *self;
+        let middle = self.middle();
+        [Self { interval, start, end: middle }, Self { interval, start: middle, end }]
+    }
+}
+
 impl Tabulated {
     /// The law of functions, read once, to 10⁻¹¹ of their largest values: for functions that are slow, written in
     /// another language, or jump.
@@ -77,15 +101,7 @@ impl Tabulated {
             }
             let places = open.iter().flat_map(|c| PLACES.map(|t| c.start + t * (c.end - c.start)));
             let gaps: Vec<f64> = places.map(|place| origin + place * range).collect();
-            let mut values = vec![[0.0; 3]; gaps.len()];
-            for order in 0..3 {
-                for ((all, value), &gap) in values.iter_mut().zip(at(law, order, &gaps)?).zip(&gaps) {
-                    if !value.is_finite() {
-                        return Err(Error::not_finite(NAMES[order], gap, value));
-                    }
-                    all[order] = value;
-                }
-            }
+            let values = read(law, &gaps)?;
             if let (true, Some(&[energy, traction, _]), Some(&gap)) = (found.is_empty(), values.last(), gaps.last()) {
                 far = energy;
                 // an energy counts from where it is at large gaps, and a repulsion is no measure of the attraction
@@ -98,20 +114,10 @@ impl Tabulated {
             }
             let mut halves = Vec::new();
             for (candidate, values) in open.into_iter().zip(values.chunks_exact(PLACES.len())) {
-                let Candidate { interval, start, end } = candidate;
-                let middle = 0.5 * (start + end);
-                let narrow = middle <= start || middle >= end;
-                let piece = Piece::between((start, end), values[0], values[if narrow { 0 } else { 4 }], range);
                 let sizes = if rest.is_some() { larger(largest, values[0]) } else { largest };
-                let agrees = (1..PLACES.len()).all(|k| {
-                    let found = piece.at(PLACES[k], range);
-                    (0..2).all(|n| (found[n] - values[k][n]).abs() <= TOLERANCE * sizes[n])
-                });
-                if agrees || narrow {
-                    found.push((interval, piece));
-                } else {
-                    halves.push(Candidate { interval, start, end: middle });
-                    halves.push(Candidate { interval, start: middle, end });
+                match candidate.piece(values, sizes, range) {
+                    Some(piece) => found.push((candidate.interval, piece)),
+                    None => halves.extend(candidate.halves()),
                 }
             }
             open = halves;
@@ -136,6 +142,20 @@ impl Tabulated {
         let pieces = found.into_iter().map(|(_, piece)| piece).collect();
         Ok(Self { hints, origin, unit: range, first, pieces, end: FARTHEST, far, jumps, compliance: 0.0 })
     }
+}
+
+/// Energy, traction and slope at some gaps.
+fn read(law: &impl Functions, gaps: &[f64]) -> Result<Vec<[f64; 3]>> {
+    let mut values = vec![[0.0; 3]; gaps.len()];
+    for order in 0..3 {
+        for ((all, value), &gap) in values.iter_mut().zip(at(law, order, gaps)?).zip(gaps) {
+            if !value.is_finite() {
+                return Err(Error::not_finite(NAMES[order], gap, value));
+            }
+            all[order] = value;
+        }
+    }
+    Ok(values)
 }
 
 /// The larger magnitude of each value.
