@@ -4,8 +4,9 @@ use ndarray::Zip;
 
 #[cfg(doc)]
 use super::Report;
+use super::descent::rey2017;
 use super::start::{Begin, Start};
-use super::{Method, Settings, Solution, Status, rey2017};
+use super::{Method, Settings, Solution, Status};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::Result;

@@ -1,14 +1,20 @@
-//! The order of a solve: the loop of a minimisation, and the stages and rounds that call it.
+//! The order of a solve: its stages, and the rounds of its solution.
 
 use std::ops::ControlFlow;
 
+use super::descent::{Descent, End};
+use super::finish::finish;
+use super::minimisation::Nearness;
 use super::operators::Operators;
 use super::plan::{Stage, plan};
 use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
+use super::rescue::rescue;
+use super::stages::{enter, leave, update_constraint};
 use super::start::{Begin, check_hardness, check_wall};
-use super::state::State;
-use super::{Branch, Method, Settings, rey2017};
+use super::tension::hold_apart;
+use super::touch::touches_more;
+use super::{Branch, Method, Settings};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
@@ -30,56 +36,6 @@ pub struct Job<'a, T: Real> {
 /// The observer of iterations, which may stop the solve.
 pub(crate) type Observer<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
 
-/// The end of a minimisation.
-pub(super) enum End {
-    Converged,
-    /// A tensile load has pulled the surfaces apart.
-    Adrift,
-    /// Progress ceased.
-    Stalled,
-    /// The iterations ran out, or the observer stopped the solve.
-    Cut(Status),
-}
-
-/// Minimises the energy of the present stage by the method of the settings.
-pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
-    match state.posed.settings.method {
-        Method::Preconditioned => descend(state, observe),
-        Method::Rey2017 => rey2017::descend(state, observe),
-    }
-}
-
-fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
-    state.residual();
-    loop {
-        state.certify()?;
-        if let Some(end) = state.check_end(observe)? {
-            return Ok(end);
-        }
-        state.note_progress();
-        let verdict = state.verdict(state.patience().1);
-        if matches!(verdict, Some(End::Stalled)) && state.may_renew() {
-            state.renew()?;
-            continue;
-        }
-        if let Some(end) = verdict {
-            return Ok(end);
-        }
-        if state.is_adrift() {
-            return Ok(End::Adrift);
-        }
-        let contact = state.sums.tally.contact;
-        let moved = state.step()?;
-        if !moved && !state.may_renew() {
-            return Ok(End::Stalled);
-        }
-        if !moved {
-            state.renew()?;
-        }
-        state.follow_contacts(contact);
-    }
-}
-
 /// Solves a problem: the stages of its plan, and then the solution in rounds of the constraint.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, given, flat, constraint, control, settings, begin, observe } = job;
@@ -96,6 +52,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         smoothed: smoothed.as_deref(),
         touched: None,
         spreads: false,
+        touches: false,
         given,
         flat,
         constraint,
@@ -104,6 +61,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         branch,
         settings,
         stage: Stage::SOLUTION,
+        nearness: Nearness::Afar,
+        detached: None,
         holds: [].iter(),
         leads_on: true,
         from_full_contact: begin.is_default() && branch == Some(Branch::Unloading),
@@ -112,34 +71,39 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     posed.holds = plan.holds.iter();
     posed.begin(plan.starts.first().copied().unwrap_or(Stage::SOLUTION));
     let touches = law.hints().touches() && !begin.is_default() && branch != Some(Branch::Unloading);
-    let mut state = State::new(posed, begin, touches)?;
+    let mut descent = Descent::new(posed, begin, touches)?;
     for stage in plan.starts {
-        state.enter(stage);
-        let end = minimise(&mut state, &mut *observe)?;
-        state.leave(stage)?;
+        enter(&mut descent, stage);
+        let end = descent.minimise(&mut *observe)?;
+        leave(&mut descent, stage)?;
         if let End::Cut(status) = end {
-            return state.finish(status);
+            return finish(descent, status);
         }
     }
     if plan.torn {
-        state.hold_apart();
+        hold_apart(&mut descent);
     }
+    let status = solve(&mut descent, observe)?;
+    finish(descent, status)
+}
+
+/// Finds the solution in rounds of the constraint; returns how it has ended.
+fn solve<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, observe: Observer<'_>) -> Result<Status> {
     loop {
-        let end = minimise(&mut state, &mut *observe)?;
-        if !matches!(end, End::Cut(_)) && state.is_apart() && state.seek_hold(&mut *observe)? {
+        let end = descent.minimise(&mut *observe)?;
+        if rescue(descent, &end, &mut *observe)? {
             continue;
         }
         match end {
-            End::Converged if state.touches_more() => state.posed.spreads = true,
-            End::Converged if std::mem::take(&mut state.posed.spreads) => state.restart(),
-            End::Converged => match state.update_constraint() {
-                Update::Done => return state.finish(Status::Converged),
+            End::Converged if touches_more(descent) => descent.iterate.posed.spreads = true,
+            End::Converged if std::mem::take(&mut descent.iterate.posed.spreads) => descent.restart(),
+            End::Converged => match update_constraint(descent) {
+                Update::Done => return Ok(Status::Converged),
                 Update::Again => {}
-                Update::Failed => return state.finish(Status::IterationLimit),
+                Update::Failed => return Ok(Status::IterationLimit),
             },
-            End::Adrift => state.hold_apart(),
-            End::Stalled => return state.finish(Status::Stalled),
-            End::Cut(status) => return state.finish(status),
+            End::Adrift | End::Stalled => return Ok(Status::Stalled),
+            End::Cut(status) => return Ok(status),
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use ndarray::Array2;
 
+use super::iterate::Iterate;
 use super::passes::count;
 use super::potential::{Of, Potential};
 use super::report::Plastic;
-use super::state::State;
 use crate::field::{CHUNK, Field, Minimum, Sums, found, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
@@ -70,51 +70,42 @@ found! {
     }
 }
 
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// Whether some nodes yield in the present state.
-    pub(super) fn has_yielded(&self) -> bool {
-        let yields = self.posed.wall().hardness().is_some();
-        // these are in contact, and free
-        yields && self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
-    }
-
-    /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing if
-    /// the wall does not yield. The energy is over all nodes of the operator's grid. Last the work that the law has done
-    /// at nodes that yield, below the gap of touching surfaces.
-    pub(super) fn yielded(&mut self) -> Option<(Array2<T>, Plastic, f64)> {
-        let Self { fields, posed, .. } = self;
-        let hardness = posed.wall().hardness()?.mean();
-        let mut depth =
-            posed.flat.yielded.as_ref().map_or_else(|| Field::zeros(fields.gap.dim()), |before| before.depth.clone());
-        let local = posed.potential();
-        let chunks = read(&fields.gap).zip(write(&mut depth));
-        let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
-            let (mut pulls, mut found) = ([T::zero(); CHUNK], Deepened::NONE);
-            if !local.is_surface() {
-                return found;
-            }
-            let caps = local.caps(first, gaps.len());
-            local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
-            for (((&gap, depth), cap), &pull) in gaps.iter().zip(depths).zip(caps).zip(&pulls) {
-                let deeper = (-gap).max(T::zero());
-                *depth += deeper;
-                let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);
-                found.yielded += count(deep > 0.0);
-                found.depth += deep;
-                found.deepest.0 = found.deepest.0.min(-deep);
-                found.energy += (cap - pull) * deep;
-                found.pulled += pull * deeper.widen();
-            }
-            found
-        });
-        let facing = posed.facing();
-        let figures = Plastic {
-            hardness,
-            fraction: total.yielded / facing,
-            depth_max: (-total.deepest.0).max(0.0),
-            depth_mean: total.depth / facing,
-            energy: posed.flat.padding * total.energy / posed.nodes(),
-        };
-        Some((depth.into_array(), figures, total.pulled))
-    }
+/// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing if
+/// the wall does not yield. The energy is over all nodes of the operator's grid. Last the work that the law has done
+/// at nodes that yield, below the gap of touching surfaces.
+pub(super) fn yielded<T: Real, Lo: Real>(iterate: &mut Iterate<'_, T, Lo>) -> Option<(Array2<T>, Plastic, f64)> {
+    let Iterate { fields, posed, .. } = iterate;
+    let hardness = posed.wall().hardness()?.mean();
+    let mut depth =
+        posed.flat.yielded.as_ref().map_or_else(|| Field::zeros(fields.gap.dim()), |before| before.depth.clone());
+    let local = posed.potential();
+    let chunks = read(&fields.gap).zip(write(&mut depth));
+    let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
+        let (mut pulls, mut found) = ([T::zero(); CHUNK], Deepened::NONE);
+        if !local.is_surface() {
+            return found;
+        }
+        let caps = local.caps(first, gaps.len());
+        local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
+        for (((&gap, depth), cap), &pull) in gaps.iter().zip(depths).zip(caps).zip(&pulls) {
+            let deeper = (-gap).max(T::zero());
+            *depth += deeper;
+            let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);
+            found.yielded += count(deep > 0.0);
+            found.depth += deep;
+            found.deepest.0 = found.deepest.0.min(-deep);
+            found.energy += (cap - pull) * deep;
+            found.pulled += pull * deeper.widen();
+        }
+        found
+    });
+    let facing = posed.facing();
+    let figures = Plastic {
+        hardness,
+        fraction: total.yielded / facing,
+        depth_max: (-total.deepest.0).max(0.0),
+        depth_mean: total.depth / facing,
+        energy: posed.flat.padding * total.energy / posed.nodes(),
+    };
+    Some((depth.into_array(), figures, total.pulled))
 }

@@ -4,11 +4,13 @@ use std::slice;
 
 use ndarray::{CowArray, Ix2};
 
+use super::descent::rey2017;
+use super::minimisation::Nearness;
 use super::operators::Operators;
 use super::plan::{Facts, Stage, StageLaw};
 use super::potential::Potential;
 use super::tension::Hold;
-use super::{Branch, Method, Settings, rey2017};
+use super::{Branch, Method, Settings};
 use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw, Touched};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::Result;
@@ -44,6 +46,11 @@ pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) branch: Option<Branch>,
     pub(super) settings: Settings,
     pub(super) stage: Stage,
+    pub(super) nearness: Nearness,
+    /// the load that has pulled the surfaces apart
+    pub(super) detached: Option<f64>,
+    /// whether surfaces have touched where they did not attract each other
+    pub(super) touches: bool,
     /// the states that may hold a load where surfaces come apart, which were not tried
     pub(super) holds: slice::Iter<'static, Hold>,
     /// whether the present round of the constraint may lead to another one

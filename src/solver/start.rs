@@ -4,11 +4,12 @@ use std::borrow::Cow;
 
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
+use super::iterate::Iterate;
 use super::minimisation::Nearness;
 use super::place::Place;
 use super::potential::{Least, bounded};
 use super::{Branch, Method, Settings};
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Values};
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, ordered, write};
@@ -163,6 +164,33 @@ pub(super) fn given_start<T: Real>(
         }
     }
     Ok(Some(gap))
+}
+
+/// Refuses a law that is not finite at the start.
+pub(super) fn check_start<T: Real, Lo: Real>(iterate: &Iterate<'_, T, Lo>) -> Result<()> {
+    if iterate.energy().is_finite() && iterate.tally().sum_r.is_finite() {
+        return Ok(());
+    }
+    iterate.posed.operators.state().grid().slab().agreed(check_gaps(iterate))
+}
+
+fn check_gaps<T: Real, Lo: Real>(iterate: &Iterate<'_, T, Lo>) -> Result<()> {
+    let law = iterate.posed.law();
+    let mut value = [T::zero()];
+    let first = iterate.posed.operators.state().grid().slab().first_node();
+    let window = iterate.posed.flat.window.as_ref();
+    let on_surface = |node| window.map_or(Some(node), |window| window.pieces(node..node + 1).next()?.1);
+    for (node, gap) in (first..).zip(iterate.fields.gap.nodes()) {
+        let Some(node) = on_surface(node) else { continue };
+        let gap = gap.max(T::zero());
+        for (order, function) in ["adhesive energy", "adhesive traction"].into_iter().enumerate() {
+            law.evaluate(node, &[gap], Values::one(order, &mut value));
+            if !value[0].is_finite() {
+                return Err(Error::not_finite(function, gap.widen(), value[0].widen()));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The gap so many steps beyond the last of two, on the operator's grid; nodes come no closer than they may in a step.

@@ -1,12 +1,13 @@
 //! Surfaces that come apart under a load: the search for a state that adhesion holds, and the final gap if there is
 //! none.
 
-use super::driver::{End, Observer, minimise};
+use super::descent::{Descent, End};
+use super::driver::Observer;
 use super::minimisation::Nearness;
 use super::passes::Fields;
 use super::plan::Stage;
 use super::posed::Posed;
-use super::state::State;
+use super::stages::adhere;
 use crate::error::Result;
 use crate::field::{found, read};
 use crate::problem::Load;
@@ -14,13 +15,10 @@ use crate::real::Real;
 use crate::vector::sums;
 
 /// A share of the load that, held without contact, is hardly any.
-const HARDLY_HELD: f64 = 1e-3;
+pub(super) const HARDLY_HELD: f64 = 1e-3;
 
 /// The share of the work of adhesion that a law has left at least where its traction is strongest.
 pub(crate) const STRONGEST: f64 = 0.5;
-
-/// The relative error at which the waves of surfaces apart are at rest.
-const AT_REST: f64 = 1e-2;
 
 /// The most mean gaps tried in search of a hold, and the share of an interval that a golden section keeps.
 const SECTIONS: usize = 12;
@@ -99,181 +97,125 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     }
 }
 
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// Whether a load that does not press has left the surfaces apart: no contact, and hardly any traction.
-    pub(super) fn is_apart(&self) -> bool {
-        let bears = self.posed.is_gap_controlled() || self.sums.given > 0.0 || self.sums.tally.contact > 0.0;
-        !self.posed.law().hints().zero && !bears && (self.has_let_go() || self.flies_apart())
+/// Continues under the load from surfaces that touch undeformed and adhere under no load.
+pub(super) fn touch<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, observe: Observer<'_>) -> Result<bool> {
+    let (load, smooths) = (descent.iterate.posed.load, descent.iterate.posed.smoothed.is_some());
+    descent.iterate.posed.from_full_contact = false;
+    descent.iterate.start_undeformed()?;
+    adhere(descent, Load::Pressure(0.0), if smooths { Stage::SMOOTHED } else { Stage::HOLD })?;
+    let mut end = descent.minimise(&mut *observe)?;
+    if smooths && !matches!(end, End::Cut(_)) {
+        go_on(descent, load, Stage::SMOOTHED)?;
+        end = descent.minimise(&mut *observe)?;
     }
+    go_on(descent, load, Stage::SOLUTION)?;
+    // a solve that is cut short ends at once
+    Ok(matches!(end, End::Cut(_)) || !descent.proof().is_apart())
+}
 
-    /// The tension of the load in all.
-    fn pulled(&self) -> f64 {
-        -self.sums.given * self.posed.nodes()
-    }
-
-    /// Whether the law holds hardly any of the tension, or of the traction of one node that touches. A traction that rises
-    /// with the gap is none at rest: then the energy of adhesion tells.
-    fn has_let_go(&self) -> bool {
-        let hints = self.posed.law().hints();
-        let (range, work) = (hints.range.widen(), hints.work_of_adhesion.widen());
-        let one = if range > 0.0 { work / range } else { 0.0 };
-        let hardly = HARDLY_HELD * self.pulled().max(one);
-        let is_spent = hints.concave || range == 0.0 || self.stored() <= hardly * range;
-        self.sums.tally.traction <= hardly && is_spent
-    }
-
-    /// Whether surfaces under a pressure fly apart, once their waves are at rest: they store less energy of adhesion than one
-    /// node has at the strongest traction of the law, or at all if the traction is strongest in contact. Where the law varies
-    /// one node may have less than another.
-    fn flies_apart(&self) -> bool {
-        let hints = self.posed.law().hints();
-        let least = if hints.concave { 1.0 - HARDLY_HELD } else { STRONGEST };
-        let exceeds = self.sums.tally.traction < self.pulled() && (hints.concave || hints.shape.is_none());
-        let flies = self.stored() < least * hints.work_of_adhesion.widen()
-            && (exceeds || self.pulled() == 0.0 && self.posed.from_full_contact);
-        flies && matches!(self.posed.load, Load::Pressure(_)) && self.relative_error() <= AT_REST
-    }
-
-    /// The energy of adhesion in all.
-    fn stored(&self) -> f64 {
-        -self.sums.tally.adhesive
-    }
-
-    /// Whether surfaces under a pressure have come apart and would drift for ever.
-    pub(super) fn is_adrift(&self) -> bool {
-        let thrown = self.posed.from_full_contact;
-        let drifts = matches!(self.posed.load, Load::Pressure(pressure) if pressure < 0.0 || thrown);
-        drifts && self.is_apart()
-    }
-
-    /// Continues to the next state that may hold the load; `false` if there is none.
-    pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
-        while let Some(hold) = self.posed.holds.next() {
-            let held = match hold {
-                Hold::Touching => self.touch(&mut *observe)?,
-                Hold::Gap => self.hold_gap(&mut *observe)?,
-            };
-            if held {
+/// Looks for a state that holds more than the tensile load, to continue from under the load; `false` if it finds
+/// none.
+///
+/// The tension at a given mean gap grows up to the pull-off and is lost beyond: a golden section looks for its
+/// largest value, about the gap at which undeformed surfaces would touch.
+pub(super) fn hold_gap<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, observe: Observer<'_>) -> Result<bool> {
+    let load = match descent.iterate.posed.load {
+        Load::Pressure(load) if load < 0.0 => load,
+        _ => return Ok(false),
+    };
+    let (touch, rest) = (descent.iterate.posed.flat.peak, descent.iterate.posed.closest().widen());
+    let mut interval =
+        [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * descent.iterate.posed.law().hints().range.widen()];
+    let [mut gaps, mut held] = [[0.0; 2]; 2];
+    let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
+    for section in 0..SECTIONS {
+        let side = next.unwrap_or(section % 2);
+        let width = interval[1] - interval[0];
+        gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
+        held[side] = match tension_at(descent, gaps[side], HARDLY_HELD * -load, &mut *observe)? {
+            Some(tension) if tension >= -load => {
+                go_on(descent, Load::Pressure(load), Stage::SOLUTION)?;
+                descent.begin(Nearness::Near);
                 return Ok(true);
             }
-        }
-        Ok(false)
-    }
-
-    /// Continues under the load from surfaces that touch undeformed and adhere under no load.
-    fn touch(&mut self, observe: Observer<'_>) -> Result<bool> {
-        let (load, smooths) = (self.posed.load, self.posed.smoothed.is_some());
-        self.posed.from_full_contact = false;
-        self.start_undeformed()?;
-        self.adhere(Load::Pressure(0.0), if smooths { Stage::SMOOTHED } else { Stage::HOLD })?;
-        let mut end = minimise(self, &mut *observe)?;
-        if smooths && !matches!(end, End::Cut(_)) {
-            self.go_on(load, Stage::SMOOTHED)?;
-            end = minimise(self, &mut *observe)?;
-        }
-        self.go_on(load, Stage::SOLUTION)?;
-        // a solve that is cut short ends at once
-        Ok(matches!(end, End::Cut(_)) || !self.is_apart())
-    }
-
-    /// Looks for a state that holds more than the tensile load, to continue from under the load; `false` if it finds
-    /// none.
-    ///
-    /// The tension at a given mean gap grows up to the pull-off and is lost beyond: a golden section looks for its
-    /// largest value, about the gap at which undeformed surfaces would touch.
-    fn hold_gap(&mut self, observe: Observer<'_>) -> Result<bool> {
-        let load = match self.posed.load {
-            Load::Pressure(load) if load < 0.0 => load,
-            _ => return Ok(false),
+            Some(tension) => tension,
+            None => break,
         };
-        let (touch, rest) = (self.posed.flat.peak, self.posed.closest().widen());
-        let mut interval =
-            [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law().hints().range.widen()];
-        let [mut gaps, mut held] = [[0.0; 2]; 2];
-        let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
-        for section in 0..SECTIONS {
-            let side = next.unwrap_or(section % 2);
-            let width = interval[1] - interval[0];
-            gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
-            held[side] = match self.tension_at(gaps[side], HARDLY_HELD * -load, &mut *observe)? {
-                Some(tension) if tension >= -load => {
-                    self.go_on(Load::Pressure(load), Stage::SOLUTION)?;
-                    self.begins(Nearness::Near);
-                    return Ok(true);
-                }
-                Some(tension) => tension,
-                None => break,
-            };
-            tried.push((gaps[side], held[side]));
-            if most_between(&mut tried, HARDLY_HELD * -load) < -load {
-                break;
-            }
-            if section > 0 {
-                // the larger tension stays inside; where hardly any is held the surfaces are apart
-                let larger = usize::from(held[1] > held[0].max(HARDLY_HELD * -load));
-                interval[1 - larger] = gaps[1 - larger];
-                (gaps[1 - larger], held[1 - larger]) = (gaps[larger], held[larger]);
-                next = Some(larger);
-            }
+        tried.push((gaps[side], held[side]));
+        if most_between(&mut tried, HARDLY_HELD * -load) < -load {
+            break;
         }
-        self.go_on(Load::Pressure(load), Stage::SOLUTION)?;
-        Ok(false)
-    }
-
-    /// The tension at a mean gap, from the contact or, if that hardly holds, a uniform gap; nothing if cut short.
-    fn tension_at(&mut self, gap: f64, hardly: f64, observe: Observer<'_>) -> Result<Option<f64>> {
-        // where the law itself keeps the surfaces apart, it may hold them with no node pressed
-        let holds = !self.posed.projects() && self.sums.tally.traction > hardly * self.posed.nodes();
-        if self.sums.tally.contact == 0.0 && !holds {
-            self.fields.gap.nodes_mut().fill(T::lit(gap));
-        } else if !self.posed.projects() && self.posed.flat.window.is_none() {
-            self.open_to(gap);
+        if section > 0 {
+            // the larger tension stays inside; where hardly any is held the surfaces are apart
+            let larger = usize::from(held[1] > held[0].max(HARDLY_HELD * -load));
+            interval[1 - larger] = gaps[1 - larger];
+            (gaps[1 - larger], held[1 - larger]) = (gaps[larger], held[larger]);
+            next = Some(larger);
         }
-        self.go_on(self.posed.holding(gap), Stage::HOLD)?;
-        let end = minimise(self, observe)?;
-        Ok((!matches!(end, End::Cut(_))).then(|| self.multiplier() - self.sums.given))
     }
+    go_on(descent, Load::Pressure(load), Stage::SOLUTION)?;
+    Ok(false)
+}
 
-    /// Scales the gaps of nodes apart to a given mean gap, or sets all gaps to it.
-    fn open_to(&mut self, mean: f64) {
-        let (nodes, closest) = (self.posed.nodes(), self.posed.closest());
-        let Fields { reducer, gap, .. } = &mut self.fields;
-        let Opened { near, apart } = reducer.run(read(gap), |_, gap| {
-            sums!([gap], [], |i| {} => Opened {
-                near: gap[i].min(closest).widen(), apart: (gap[i] - closest).max(T::zero()).widen()
-            })
-        });
-        let scale = (mean * nodes - near) / apart;
-        let possible = scale.is_finite() && scale > 0.0;
-        let (scale, mean) = (T::lit(scale), T::lit(mean));
-        self.each_gap(|gap| match possible {
-            true if gap > closest => closest + scale * (gap - closest),
-            true => gap,
-            false => mean,
-        });
+/// The tension at a mean gap, from the contact or, if that hardly holds, a uniform gap; nothing if cut short.
+fn tension_at<T: Real, Lo: Real>(
+    descent: &mut Descent<'_, T, Lo>,
+    gap: f64,
+    hardly: f64,
+    observe: Observer<'_>,
+) -> Result<Option<f64>> {
+    // where the law itself keeps the surfaces apart, it may hold them with no node pressed
+    let holds =
+        !descent.iterate.posed.projects() && descent.iterate.tally().traction > hardly * descent.iterate.posed.nodes();
+    if descent.iterate.tally().contact == 0.0 && !holds {
+        descent.iterate.fields.gap.nodes_mut().fill(T::lit(gap));
+    } else if !descent.iterate.posed.projects() && descent.iterate.posed.flat.window.is_none() {
+        open_to(descent, gap);
     }
+    go_on(descent, descent.iterate.posed.holding(gap), Stage::HOLD)?;
+    let end = descent.minimise(observe)?;
+    Ok((!matches!(end, End::Cut(_))).then(|| descent.iterate.multiplier() - descent.iterate.given()))
+}
 
-    fn go_on(&mut self, load: Load, stage: Stage) -> Result<()> {
-        (self.posed.load, self.posed.stage) = (load, stage);
-        // the refresh scales the mean of the present gap to the one that is held
-        self.count();
-        self.refresh()?;
-        self.restart();
-        self.sums.certificate = f64::INFINITY;
-        Ok(())
-    }
+/// Scales the gaps of nodes apart to a given mean gap, or sets all gaps to it.
+fn open_to<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, mean: f64) {
+    let (nodes, closest) = (descent.iterate.posed.nodes(), descent.iterate.posed.closest());
+    let Fields { reducer, gap, .. } = &mut descent.iterate.fields;
+    let Opened { near, apart } = reducer.run(read(gap), |_, gap| {
+        sums!([gap], [], |i| {} => Opened {
+            near: gap[i].min(closest).widen(), apart: (gap[i] - closest).max(T::zero()).widen()
+        })
+    });
+    let scale = (mean * nodes - near) / apart;
+    let possible = scale.is_finite() && scale > 0.0;
+    let (scale, mean) = (T::lit(scale), T::lit(mean));
+    descent.iterate.each_gap(|gap| match possible {
+        true if gap > closest => closest + scale * (gap - closest),
+        true => gap,
+        false => mean,
+    });
+}
 
-    /// Holds drifting surfaces out of each other's reach, to come to rest.
-    pub(super) fn hold_apart(&mut self) {
-        let far = 2.0 * self.posed.out_of_reach();
-        let mean = self.mean_gap();
-        let target = mean.max(far);
-        let lift = T::lit(target - mean);
-        self.each_gap(|gap| gap + lift);
-        self.sums.detached = Some(self.sums.given);
-        self.posed.load = self.posed.holding(target);
-        self.restart();
-    }
+fn go_on<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, load: Load, stage: Stage) -> Result<()> {
+    (descent.iterate.posed.load, descent.iterate.posed.stage) = (load, stage);
+    // the refresh scales the mean of the present gap to the one that is held
+    descent.iterate.count();
+    descent.iterate.refresh()?;
+    descent.restart();
+    descent.forget_certificate();
+    Ok(())
+}
+
+/// Holds drifting surfaces out of each other's reach, to come to rest.
+pub(super) fn hold_apart<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) {
+    let far = 2.0 * descent.iterate.posed.out_of_reach();
+    let mean = descent.iterate.mean_gap();
+    let target = mean.max(far);
+    let lift = T::lit(target - mean);
+    descent.iterate.each_gap(|gap| gap + lift);
+    descent.iterate.posed.detached = Some(descent.iterate.given());
+    descent.iterate.posed.load = descent.iterate.posed.holding(target);
+    descent.restart();
 }
 
 /// The most tension, with some margin, that a concave function through (gap, tension) pairs may have about the largest.

@@ -6,13 +6,12 @@
 
 use ndarray::Array2;
 
-use super::passes::Fields;
+use super::descent::Descent;
 use super::posed::Posed;
-use super::state::State;
 use crate::adhesion::{Neighbourhood, Touched};
 use crate::constraint::Wall;
 use crate::elastic::Boundary;
-use crate::field::{Field, Minimum, ordered, read};
+use crate::field::{Field, ordered};
 use crate::real::Real;
 
 /// The error at which surfaces may touch at nodes where they do not attract each other.
@@ -57,75 +56,50 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
             }
         }
     }
-}
 
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// Lets surfaces touch that a load brings together and hardly presses, as rounding may leave a gap between them.
-    pub(super) fn close_up(&mut self) {
-        let local = self.posed.potential();
-        let Fields { reducer, gap, .. } = &mut self.fields;
-        let least = local.run(reducer, read(gap), |local, _, gap| {
-            let least = gap.iter().fold(T::infinity(), |least, &gap| least.min(gap));
-            Minimum(if local.is_surface() { least.widen() } else { f64::INFINITY })
-        });
-        let least = T::lit(least.0);
-        if least > T::zero() {
-            self.each_gap(|gap| gap - least);
-        }
-    }
-
-    /// Takes in the neighbourhood of contacts where surfaces attract each other already, or `everywhere`; whether it is
-    /// larger than before.
-    fn take_in(&mut self, everywhere: bool) -> bool {
-        let Some(mut touched) = self.posed.touched.take() else { return false };
+    /// Takes in the neighbourhood of contacts of a gap where surfaces attract each other already, or `everywhere`; whether
+    /// it is larger than before.
+    pub(super) fn take_in(&mut self, gap: &Array2<T>, everywhere: bool) -> bool {
+        let Some(mut touched) = self.touched.take() else { return false };
         let neighbourhood = &mut touched.neighbourhood;
-        self.posed.mark_contacts(&self.fields.gap, neighbourhood);
+        self.mark_contacts(gap, neighbourhood);
         if everywhere {
-            self.counters.touches |= neighbourhood.has_others();
+            self.touches |= neighbourhood.has_others();
         } else {
             neighbourhood.confine();
         }
         let grows = neighbourhood.grow();
-        self.posed.touched = Some(touched);
-        grows
-    }
-
-    /// Follows contacts that have spread in a step.
-    pub(super) fn follow_contacts(&mut self, before: f64) {
-        if self.sums.tally.contact != before && self.take_in(false) {
-            self.counters.progress = Default::default();
-            self.count();
-            self.compute_residual();
-        }
-    }
-
-    /// Takes in the neighbourhood of all contacts of a state at rest, to continue from there; whether it has grown.
-    pub(super) fn touches_more(&mut self) -> bool {
-        let grows = self.take_in(true);
-        if grows {
-            self.restart();
-            self.sums.certificate = f64::INFINITY;
-        }
+        self.touched = Some(touched);
         grows
     }
 
     /// Where surfaces without a range of adhesion attract each other; none where they do so everywhere.
-    pub(super) fn touched(&self) -> Option<Field<bool>> {
-        Some(self.posed.touched.as_ref()?.neighbourhood.near().clone())
+    pub(super) fn near(&self) -> Option<Field<bool>> {
+        Some(self.touched.as_ref()?.neighbourhood.near().clone())
     }
 
     /// The nodes of the operator's grid at which surfaces without a range of adhesion attract each other and have not
     /// parted by the range of the grid.
-    pub(super) fn not_parted(&self) -> Option<Array2<bool>> {
-        let hints = self.posed.adhesion.hints();
+    pub(super) fn not_parted(&self, gap: &Array2<T>) -> Option<Array2<bool>> {
+        let hints = self.adhesion.hints();
         if !hints.touches() {
             return None;
         }
-        let touched = self.touched().map(|near| match &self.posed.flat.window {
+        let touched = self.near().map(|near| match &self.flat.window {
             Some(window) => window.place(&near, false),
             None => near,
         });
         let mut touched = touched.iter().flat_map(|touched| touched.nodes());
-        Some(self.fields.gap.map(|&gap| *touched.next().unwrap_or(&true) && gap < hints.range))
+        Some(gap.map(|&gap| *touched.next().unwrap_or(&true) && gap < hints.range))
     }
+}
+
+/// Takes in the neighbourhood of all contacts of a state at rest, to continue from there; whether it has grown.
+pub(super) fn touches_more<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> bool {
+    let grows = descent.iterate.take_in(true);
+    if grows {
+        descent.restart();
+        descent.forget_certificate();
+    }
+    grows
 }

@@ -1,30 +1,29 @@
 //! The scale of a certified error: the energy that a certificate is compared with, and the certificate of rounding.
 
-use super::certificate::NEAR_FLOOR;
-use super::state::State;
+use super::{NEAR_FLOOR, Proof};
 use crate::constraint::Wall;
 use crate::real::Real;
 
 /// The scale of a certificate, and the floor under it, both as the mean of u·p.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scale {
-    pub(super) energy: f64,
+pub(in crate::solver) struct Scale {
+    pub(in crate::solver) energy: f64,
     /// the certificate of a gap with no error but rounding
-    pub(super) rounding: f64,
+    pub(in crate::solver) rounding: f64,
 }
 
 impl Scale {
     /// The certificate over its scale, as an error in the energy norm.
-    pub(super) fn error_of(&self, certificate: f64) -> f64 {
+    pub(in crate::solver) fn error_of(&self, certificate: f64) -> f64 {
         let error = if certificate == 0.0 { 0.0 } else { (certificate / self.energy).sqrt() };
         if error.is_nan() { f64::INFINITY } else { error }
     }
 }
 
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
+impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     /// The scale of an error: the energy of the waves of the displacement, or of flats where it has no waves but those that
     /// rounding makes.
-    pub(super) fn error_scale(&self) -> Scale {
+    pub(in crate::solver) fn error_scale(&self) -> Scale {
         let rounding = self.rounding_of_waves();
         let (waves, flats) = (self.energy_of_waves(rounding), self.energy_of_flats());
         if waves >= flats {
@@ -37,21 +36,23 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// of p = K⁻¹h + K⁻¹g where the two cancel. The second term is the rounding of the gap, which a transform spreads evenly
     /// over all waves, with k the stiffness of the shortest wave.
     fn rounding_of_waves(&self) -> f64 {
-        let (epsilon, stiffest) = (T::epsilon().widen(), self.posed.stiffness_range().1);
-        let mean = self.mean_gap().abs();
-        epsilon * epsilon * (self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height))
+        let (epsilon, stiffest) = (T::epsilon().widen(), self.iterate.posed.stiffness_range().1);
+        let mean = self.iterate.mean_gap().abs();
+        epsilon
+            * epsilon
+            * (self.iterate.posed.flat.work + 0.5 * stiffest * mean * (mean + self.iterate.posed.flat.rms_height))
     }
 
     /// The energy of the waves, ⟨u, p⟩. Without contact a surface has at least ⟨h, K⁻¹h⟩. Nodes that bear their own
     /// attraction deform hardly anything: they have the energy of the deformation that it would make without contact.
     fn energy_of_waves(&self, rounding: f64) -> f64 {
-        let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
-        let waves = self.mean_work().max(apart);
-        let (adhesion, hints) = (self.attraction(), self.posed.law().hints());
-        let attracts = self.mean_traction().max(adhesion) >= self.sums.given.abs();
+        let apart = if self.iterate.tally().contact > 0.0 { 0.0 } else { self.iterate.posed.flat.work };
+        let waves = self.iterate.mean_work().max(apart);
+        let (adhesion, hints) = (self.attraction(), self.iterate.posed.law().hints());
+        let attracts = self.iterate.mean_traction().max(adhesion) >= self.iterate.given().abs();
         if attracts && rounding > (self.tolerance() / NEAR_FLOOR).powi(2) * waves {
             let strongest = (hints.work_of_adhesion / hints.range).widen();
-            return waves.max(adhesion * strongest / self.posed.stiffness_range().1);
+            return waves.max(adhesion * strongest / self.iterate.posed.stiffness_range().1);
         }
         waves
     }
@@ -59,19 +60,20 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The energy that rounding leaves in flats that attract each other, or that their mean gap, or a law with gaps of its
     /// range, holds apart.
     fn energy_of_flats(&self) -> f64 {
-        let (epsilon, softest, traction) = (T::epsilon().widen(), self.posed.stiffness_range().0, self.mean_traction());
-        let lifted = match self.posed.wall() {
-            Wall::None => self.mean_gap().abs().max(self.posed.law().hints().range.widen()),
-            _ if self.sums.tally.contact > 0.0 => 0.0,
-            _ => self.mean_gap(),
+        let (epsilon, softest, traction) =
+            (T::epsilon().widen(), self.iterate.posed.stiffness_range().0, self.iterate.mean_traction());
+        let lifted = match self.iterate.posed.wall() {
+            Wall::None => self.iterate.mean_gap().abs().max(self.iterate.posed.law().hints().range.widen()),
+            _ if self.iterate.tally().contact > 0.0 => 0.0,
+            _ => self.iterate.mean_gap(),
         };
         if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 }
     }
 
     /// The energy of the load, or of the traction, at single nodes of flats that the law alone holds.
     fn energy_of_held_flats(&self) -> f64 {
-        let traction = self.mean_traction();
-        let stiffest = self.posed.stiffness_range().1;
-        if self.posed.has_no_wall() { traction.max(self.sums.given.abs()).powi(2) / stiffest } else { 0.0 }
+        let traction = self.iterate.mean_traction();
+        let stiffest = self.iterate.posed.stiffness_range().1;
+        if self.iterate.posed.has_no_wall() { traction.max(self.iterate.given().abs()).powi(2) / stiffest } else { 0.0 }
     }
 }

@@ -1,13 +1,14 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
-use super::minimisation::{Made, Nearness, Next};
-use super::passes::{self, Advance, Attempt, Fields, Tried, idles};
-use super::potential::CLOSER;
-use super::state::State;
+use super::Descent;
 use crate::error::Result;
 use crate::field::{CHUNK, Sums, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
+use crate::solver::iterate::Iterate;
+use crate::solver::minimisation::{Nearness, Next, Step};
+use crate::solver::passes::{self, Attempt, Fields, Tried, idles};
+use crate::solver::potential::CLOSER;
 
 /// The least curvature of a direction, as a share of its elastic curvature.
 const LEAST_CURVATURE: f64 = 0.01;
@@ -61,33 +62,23 @@ impl Trial {
     }
 }
 
-/// The length of a step along a trial to be taken, and its sums.
-struct Step {
-    length: f64,
-    /// Σ d
-    change: f64,
-    /// Σ d·p and ⟨d, K⁻¹d⟩
-    work: f64,
-    elastic: f64,
-    spring: f64,
-}
-
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
+impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
     /// A step along the projected, conjugate, preconditioned residual; nothing if no step lowers the energy.
     pub(super) fn preconditioned_step(&mut self) -> Result<Option<Next>> {
         // with the waves at rest
-        let waits = self.hangs_on_spring() && self.relative_error() <= self.posed.settings.tolerance_in::<T>();
+        let waits = self.iterate.hangs_on_spring()
+            && self.proof().relative_error() <= self.iterate.posed.settings.tolerance_in::<T>();
         if waits && self.shift()? {
             return Ok(Some(Next::Compute));
         }
-        let length = self.steps.step_length;
+        let length = self.step_length;
         let next = self.try_step()?;
-        if next.is_some() || length >= 1.0 || self.is_at_floor() {
+        if next.is_some() || length >= 1.0 || self.proof().is_at_floor() {
             return Ok(next);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
-        self.steps.step_length = 1.0;
-        self.residual();
+        self.step_length = 1.0;
+        self.iterate.residual();
         self.certify()?;
         self.try_step()
     }
@@ -95,59 +86,60 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A step of the mean gap alone, as long as the spring's and without the rounding of a response. `false` if it ends
     /// at a wall, or does not lower the energy.
     fn shift(&mut self) -> Result<bool> {
-        let imbalance = self.imbalance();
-        let length = std::mem::replace(&mut self.steps.step_length, 1.0);
-        self.fields.preconditioned.nodes_mut().fill(Lo::zero());
-        let mut trial = self.trial(-imbalance / self.posed.load.stiffness(), None);
+        let imbalance = self.iterate.imbalance();
+        let length = std::mem::replace(&mut self.step_length, 1.0);
+        self.iterate.fields.preconditioned.nodes_mut().fill(Lo::zero());
+        let mut trial = self.trial(-imbalance / self.iterate.posed.load.stiffness(), None);
         // the sum of r', which is of Lo, has the rounding of the waves
         trial.slope = trial.tried.change * imbalance;
         trial.tried.descent = trial.slope;
         let step = if trial.is_clipped() || trial.slope >= 0.0 { None } else { self.search(&trial, 0.0) };
-        self.steps.step_length = length;
+        self.step_length = length;
         let Some(step) = step else {
-            self.residual();
+            self.iterate.residual();
             self.certify()?;
             return Ok(false);
         };
-        self.fields.residual.nodes_mut().fill(Lo::zero());
-        self.advance(&trial, &step);
+        self.iterate.fields.residual.nodes_mut().fill(Lo::zero());
+        self.iterate.advance(step);
         // the last change is of the waves
-        self.steps.momentum = None;
+        self.iterate.take_momentum();
         Ok(true)
     }
 
     fn try_step(&mut self) -> Result<Option<Next>> {
         let (centre, mut momentum) = self.direction();
         loop {
-            let trial_length = self.steps.step_length;
-            let Some(trial) = self.descend(centre, &mut momentum) else { return Ok(None) };
-            let Fields { change, residual: response, .. } = &mut self.fields;
-            let elastic = self.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
-            self.counters.applications += 1;
-            let Some(step) = self.search(&trial, elastic * self.posed.nodes()) else { return Ok(None) };
-            if trial.tried.blocked == 0.0 || self.has_yielded() || step.length >= SHORT {
-                return Ok(Some(self.advance(&trial, &step)));
+            let trial_length = self.step_length;
+            let Some(trial) = self.falling(centre, &mut momentum) else { return Ok(None) };
+            let Fields { change, residual: response, .. } = &mut self.iterate.fields;
+            let elastic =
+                self.iterate.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
+            self.iterate.applied();
+            let Some(step) = self.search(&trial, elastic * self.iterate.posed.nodes()) else { return Ok(None) };
+            if trial.tried.blocked == 0.0 || self.iterate.has_yielded() || step.length >= SHORT {
+                return Ok(Some(self.iterate.advance(step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
             let shorter = if momentum.is_some() { 1.0 } else { step.length };
-            self.steps.step_length = trial_length * shorter;
+            self.step_length = trial_length * shorter;
             momentum = None;
-            self.residual();
+            self.iterate.residual();
         }
     }
 
     /// The mean of z over the working set, and the multiple of the last change.
     fn direction(&mut self) -> (f64, Option<Momentum>) {
-        let share = if self.posed.is_gap_controlled() && self.sums.residual.working > 0.0 {
-            1.0 / self.sums.residual.working
+        let share = if self.iterate.posed.is_gap_controlled() && self.iterate.sums_of_residual().working > 0.0 {
+            1.0 / self.iterate.sums_of_residual().working
         } else {
             0.0
         };
         let centre =
-            if share > 0.0 { (self.sums.preconditioned.sum - passes::idle(&mut self.fields)) * share } else { 0.0 };
-        let momentum = self.steps.momentum.take().and_then(|made| {
+            if share > 0.0 { (self.preconditioned.sum - passes::idle(&mut self.iterate.fields)) * share } else { 0.0 };
+        let momentum = self.iterate.take_momentum().and_then(|made| {
             let (conjugate, remainder) = if made.curvature > 0.0 {
-                let overlap = self.sums.preconditioned.descent - made.overlap;
+                let overlap = self.preconditioned.descent - made.overlap;
                 ((overlap / made.curvature).max(0.0), (-made.factor * made.descent / made.curvature).min(FARTHEST))
             } else if made.factor * made.descent < 0.0 {
                 (0.0, ONWARD)
@@ -163,7 +155,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Puts a feasible change into `change` along which the energy falls. A step that clipping and scaling turn uphill
     /// is tried without the last change; then the blocked nodes alone are put into contact, or, without any, it is
     /// shortened down to its rounding.
-    fn descend(&mut self, centre: f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
+    fn falling(&mut self, centre: f64, momentum: &mut Option<Momentum>) -> Option<Trial> {
         loop {
             let trial = self.trial(centre, *momentum);
             if trial.slope < 0.0 {
@@ -175,8 +167,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if trial.tried.blocked > 0.0 {
                 return Some(self.land(centre, trial)).filter(|trial| trial.slope < 0.0);
             }
-            self.steps.step_length *= 0.5;
-            if self.steps.step_length < T::epsilon().widen() {
+            self.step_length *= 0.5;
+            if self.step_length < T::epsilon().widen() {
                 return None;
             }
         }
@@ -184,17 +176,17 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The clipped change of a step of the trial length; scaled, it leaves the mean gap as it is.
     fn trial(&mut self, centre: f64, momentum: Option<Momentum>) -> Trial {
-        let length = self.steps.step_length;
+        let length = self.step_length;
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
-        let yields = self.sums.residual.yields;
+        let yields = self.iterate.sums_of_residual().yields;
         let attempt = Attempt { length, centre, keep, mean, yields };
-        let surface = (self.posed.is_gap_controlled(), &self.posed.flat.pressure);
-        let local = self.posed.potential();
-        let tried = passes::trial(&mut self.fields, &local, attempt, surface);
+        let surface = (self.iterate.posed.is_gap_controlled(), &self.iterate.posed.flat.pressure);
+        let local = self.iterate.posed.potential();
+        let tried = passes::trial(&mut self.iterate.fields, &local, attempt, surface);
         // the given mean would let a long step multiply the rounding of their difference
-        let present = self.sums.tally.sum_gap;
-        let scales = self.posed.is_gap_controlled() && tried.clipped > 0.0;
+        let present = self.iterate.tally().sum_gap;
+        let scales = self.iterate.posed.is_gap_controlled() && tried.clipped > 0.0;
         let scale = if scales { present / (present + tried.change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
         // rounded as in the passes
@@ -208,14 +200,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             kink: if possible { scale * tried.kink } else { 0.0 },
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
         };
-        let of_both_signs = self.has_yielded() || yields && self.sums.tally.contact > 0.0;
+        let of_both_signs = self.iterate.has_yielded() || yields && self.iterate.tally().contact > 0.0;
         if of_both_signs && scales { self.scale_apart(trial) } else { trial }
     }
 
     /// A change that scales only the gaps above zero: all gaps, of both signs, may have hardly any mean.
     fn scale_apart(&mut self, trial: Trial) -> Trial {
-        let local = self.posed.potential();
-        let Fields { reducer, gap, change, .. } = &mut self.fields;
+        let local = self.iterate.posed.potential();
+        let Fields { reducer, gap, change, .. } = &mut self.iterate.fields;
         let next = |gap: T, change: Lo| gap + cast::<_, T>(change);
         let apart = local.run(reducer, read(gap).zip(read(change)), |_, _, (gap, change)| {
             gap.iter().zip(change).map(|(&gap, &c)| next(gap, c).max(T::zero()).widen()).sum::<f64>()
@@ -233,10 +225,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// A change that puts the blocked nodes into contact and lifts the others; both lower the energy.
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
-        let (length, centre) = (T::lit(self.steps.step_length), T::lit(centre));
-        let held = self.posed.is_gap_controlled();
-        let local = self.posed.potential();
-        let capped = self.sums.residual.yields;
+        let (length, centre) = (T::lit(self.step_length), T::lit(centre));
+        let held = self.iterate.posed.is_gap_controlled();
+        let local = self.iterate.posed.potential();
+        let capped = self.iterate.sums_of_residual().yields;
         let lands = move |gap: T, r: Lo, z: Lo| {
             let wanted = length * (cast::<_, T>(z) - centre);
             gap > T::zero() && r > Lo::zero() && gap < wanted
@@ -244,7 +236,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         // a node that touches moves to one side only
         let lifted = move |gap: T, r: Lo| !(idles(r) || capped && gap == T::zero());
-        let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
+        let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.iterate.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
         let [landed, others] = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
             let ([mut landed, mut others], faces) = ([0.0; 2], local.is_surface());
@@ -272,8 +264,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Writes a change anew, of each node by whether it faces the surface, its gap, its residual before and after the
     /// preconditioner, and its change.
     fn remake(&mut self, trial: Trial, anew: impl Fn(bool, T, [Lo; 3]) -> Lo + Sync + Send) -> Trial {
-        let local = self.posed.potential();
-        let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
+        let local = self.iterate.posed.potential();
+        let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.iterate.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
         let found = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
             let nodes = gap.iter().zip(residual).zip(z).zip(&mut *change);
@@ -301,11 +293,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
-        let (shift, nodes) = (self.offset() - self.sums.residual.level, self.posed.nodes());
-        let noise = self.energy_noise() * nodes;
-        let (stiffness, yielded) = (self.posed.load.stiffness(), self.has_yielded());
-        let Self { fields, posed, sums, .. } = self;
-        let (local, tally) = (posed.potential(), &sums.tally);
+        let (shift, nodes) =
+            (self.iterate.offset() - self.iterate.sums_of_residual().level, self.iterate.posed.nodes());
+        let noise = self.iterate.energy_noise() * nodes;
+        let (stiffness, yielded) = (self.iterate.posed.load.stiffness(), self.iterate.has_yielded());
+        let tally = *self.iterate.tally();
+        let Iterate { fields, posed, .. } = &mut self.iterate;
+        let local = posed.potential();
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
         let Tried { change, descent, traction, change_surface, gap_surface, .. } = trial.tried;
         // p = r' − φ'(g) and two constants, at every node with a change
@@ -355,38 +349,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
         }
         // near the solution the best lengths scatter: damp their changes
-        let ratio = if self.steps.nearness >= Nearness::Ahead { best.sqrt() } else { best };
+        let ratio = if self.iterate.posed.nearness >= Nearness::Ahead { best.sqrt() } else { best };
         let (least, most) = if yielded { ADAPT_YIELDING } else { ADAPT };
-        self.steps.step_length *= ratio.clamp(least, most);
-        (length > 0.0).then_some(Step { length, change, work, elastic, spring })
-    }
-
-    /// Takes a step, with the tally of the new state. Returns what is left to do for its residual.
-    fn advance(&mut self, trial: &Trial, step: &Step) -> Next {
-        let &Step { length, change, work, elastic, spring } = step;
-        let (scale, square) = (trial.scale, trial.tried.square);
-        self.sums.given = self.posed.load.pressure_at((self.sums.tally.sum_gap + length * change) / self.posed.nodes());
-        let level = self.posed.is_gap_controlled().then_some(T::lit(self.sums.residual.level));
-        let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
-        let Self { fields, posed, .. } = self;
-        let local = posed.potential();
-        let advanced = passes::advance(fields, &local, advance, &posed.flat.pressure);
-        // `change` holds d after a scaled step, and c = d otherwise
-        let curvature = if local.is_straight() {
-            length * length * (elastic + spring)
-        } else {
-            length * (advanced.product - trial.slope)
-        };
-        self.sums.tally = advanced.tally;
-        let change = length * (2.0 * work + length * elastic);
-        self.sums.work = self.sums.work.after(change, self.update_noise() * change.abs());
-        self.steps.momentum = Some(Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 });
-        self.steps.updates += (length * scale).powi(2) * square / self.posed.nodes();
-        self.steps.age += 1;
-        if level.is_some() {
-            return Next::Level;
-        }
-        self.go_on_with(advanced.residual);
-        Next::Go
+        self.step_length *= ratio.clamp(least, most);
+        let (scale, slope, square) = (trial.scale, trial.slope, trial.tried.square);
+        (length > 0.0).then_some(Step { length, scale, slope, square, change, work, elastic, spring })
     }
 }
