@@ -46,6 +46,11 @@ const GROWTH: f64 = 1.15;
 const LEAST_NODES: f64 = 10.0;
 const LEAST_RADIUS: f64 = 2.0;
 
+/// The nodes along a side of the coarsest grid that tells where the pull-off is expected, and the change of the pull-off to a
+/// grid of twice as many nodes, where a single grid is known.
+const COARSEST: usize = 32;
+const UNKNOWN: f64 = 0.85;
+
 /// Why the error of a pull-off is not told.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -250,7 +255,8 @@ impl Accuracy {
             return Err(Error::Unsuited { what: "accuracy of the pull-off", reason });
         }
         let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
-        let mut find = |surface: &Surface, law: SharedLaw<T>| {
+        let mut find = |surface: &Surface, law: SharedLaw<T>, tensions: &[f64]| {
+            let search = search.expected(expected_on_finer(tensions, search.tolerance).or(search.expected));
             let grid = *surface.grid();
             let mut problem = Problem::of(surface, operators.on(grid)?, law)?;
             let found = search.find_from(solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
@@ -258,20 +264,27 @@ impl Accuracy {
             let level = found.limit()?.map(|limit| (grid.shape(), [tension, limit]));
             Ok::<_, Error>((found, level, problem.operator.grid().nodes(), problem.operator.boundary()))
         };
-        let mut levels = Vec::new();
+        let (mut levels, mut tensions) = (Vec::new(), Vec::new());
         if hints.of_grid && !hints.zero {
-            let coarse = coarsened(surface, self.nested.coarsest, hints.shape.is_none())?.into_iter().next();
-            if let Some(coarse) = &coarse {
+            let coarsest = self.nested.coarsest.max(COARSEST);
+            for coarse in coarsened(surface, coarsest, hints.shape.is_none())?.iter().rev() {
                 // what cannot be found there, or is of a few nodes, says nothing of the finer grid
-                let found = find(coarse, on_coarse(law, surface, coarse)).ok();
-                let found = found.filter(|(found, ..)| found.reached && 4.0 * found.bearing_nodes() >= LEAST_NODES);
-                levels.extend(found.and_then(|(_, level, ..)| level));
+                let found = find(coarse, on_coarse(law, surface, coarse), &tensions).ok();
+                let found = found.filter(|(found, ..)| found.reached);
+                // closed surfaces hold roughly where they do not hold
+                let open = found
+                    .as_ref()
+                    .filter(|(found, ..)| found.closed_share().is_none_or(|share| share <= NEARLY_CLOSED));
+                tensions.extend(open.map(|(found, ..)| -found.solution.report.mean_pressure));
+                let found = found.filter(|(found, ..)| 4.0 * found.bearing_nodes() >= LEAST_NODES);
+                levels = found.and_then(|(_, level, ..)| level).into_iter().collect();
             }
         }
         let (mut surface, mut law) = (surface.clone(), law.clone());
         let mut refinable = is_refinable(&surface, &*law);
         loop {
-            let (found, level, nodes, boundary) = find(&surface, law.clone())?;
+            let (found, level, nodes, boundary) = find(&surface, law.clone(), &tensions)?;
+            tensions.push(-found.solution.report.mean_pressure);
             let waves = surface.nodes_per_wave(boundary);
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
@@ -311,6 +324,18 @@ impl Accuracy {
             surface = fine;
         }
     }
+}
+
+/// The tensions between which the pull-off on the next finer grid is expected, from the pull-offs on coarser grids: it changes
+/// by as much as from grid to grid before, or by half as much.
+fn expected_on_finer(tensions: &[f64], tolerance: f64) -> Option<[f64; 2]> {
+    let (fine, change) = match *tensions {
+        [.., coarse, fine] => (fine, (fine / coarse).clamp(0.5, 2.0)),
+        [fine] => (fine, UNKNOWN),
+        [] => return None,
+    };
+    let [least, most] = [change.min(change.sqrt()), change.max(change.sqrt())].map(|change| change * fine);
+    Some([least * (1.0 - 0.5 * tolerance), most * (1.0 + 0.5 * tolerance)]).filter(|_| fine > 0.0)
 }
 
 /// The pull-off in the limit of no range on each of some levels, the finest first: of the tension and of the limit that it
