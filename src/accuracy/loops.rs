@@ -101,8 +101,8 @@ impl LoopLimit {
         let sides = [shape.0, shape.1].into_iter().filter(|&nodes| nodes > 1);
         let finer = SCATTERED / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
         let is_scattered = fine.touches.max(coarse.touches) > 1;
-        let [work, tension] = BEYOND
-            .map(|one| if is_scattered { (BEYOND_PLACES, SCATTER * finer.sqrt().min(1.0)) } else { (one, 0.0) });
+        let [work, tension] =
+            BEYOND.map(|one| if is_scattered { (BEYOND_PLACES, SCATTER * finer.sqrt().min(1.0)) } else { (one, 0.0) });
         let tensions = [fine.greatest_tension, coarse.greatest_tension];
         Self {
             work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error], work),

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use asperity::accuracy::{Accuracy, Quantity};
 use asperity::adhesion::Formula;
 use asperity::exact::Sphere;
 use asperity::path::{Path, PathSettings};
@@ -139,4 +140,39 @@ fn surfaces_that_were_pressed_hold_each_other_by_weak_adhesion() {
             assert!(last.report.contact_nodes > 0, "{seed}");
         }
     }
+}
+
+#[test]
+fn coarser_grids_make_a_search_cheaper_and_leave_the_pull_off() {
+    let (mut alone, mut led) = (0, 0);
+    println!(
+        "| slope, k_s, adhesion, preload | pull-off | applications | from coarser grids | applications |\n|---|---|---|---|---|"
+    );
+    for number in 0..8 {
+        let [k_s, slope] = [[8.0, 16.0][number % 2], [0.02, 0.1, 0.3][number % 3]];
+        let [adhesion, preload] = [[3e-3, 0.01, 0.03][number * 2 % 3], 0.1 * slope];
+        let grid = Grid::square(128, 1.0).unwrap();
+        let height = SelfAffine::default().k_s(k_s).seed(100 + number as u64).amplitude(Amplitude::RmsSlope(slope));
+        let surface = height.surface(grid).unwrap();
+        let law = Jkr::new(adhesion * slope * slope / k_s).unwrap();
+        let body = |grid| Westergaard::<f64>::new(grid, 1.0);
+        let search = PullOff::default().preload((number % 4 > 0).then_some(preload));
+        let mut problem = Problem::new(&surface, body(grid).unwrap(), law).unwrap();
+        let one = search.find(&mut Solver::default(), &mut problem).unwrap();
+        let accuracy = Accuracy::new(f64::INFINITY, Quantity::Area);
+        let other = accuracy.pull_off(&mut Solver::default(), &surface, body, law, &search).unwrap().found;
+        let [tension, from_coarser] = [&one, &other].map(|found| -found.solution.report.mean_pressure);
+        let costs = [&one, &other].map(|found| found.operator_applications);
+        println!(
+            "| {slope}, {k_s}, {adhesion}, {:?} | {tension:.3e} | {} | {from_coarser:.3e} | {} |",
+            search.preload, costs[0], costs[1]
+        );
+        // both brackets are 2 % wide, and long steps may lose a contact more
+        assert!(one.reached && other.reached && (from_coarser / tension - 1.0).abs() < 0.03);
+        assert!(other.solution.report.relative_error <= Settings::default().tolerance_in::<f64>());
+        assert!(costs[1] as f64 <= 1.2 * costs[0] as f64, "{costs:?}");
+        (alone, led) = (alone + costs[0], led + costs[1]);
+    }
+    println!("{alone} applications, from coarser grids {led}");
+    assert!(led as f64 <= 0.75 * alone as f64);
 }

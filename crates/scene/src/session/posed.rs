@@ -21,7 +21,7 @@ use crate::outcome::Outcome;
 use crate::session::fall::time;
 use crate::session::{Observe, Session};
 
-/// The operator applications of a search for the pull-off; of rough surfaces 300 to 1200.
+/// The operator applications of a search for the pull-off, with those on coarser grids; of rough surfaces 200 to 1200.
 const PULL_OFF: f64 = 600.0;
 
 /// The surface, to make a problem on each of nested grids, or the problem on its grid alone: never both.
@@ -161,10 +161,10 @@ impl<T: Scalar> Session<T> {
     /// Those of the body and the operator.
     pub fn announce_pull_off(&self, refines: bool) -> Result<String> {
         let ((nx, ny), of_grid) = (self.grid.shape(), self.law.hints().of_grid);
-        let seconds = self.seconds_of_application()? * PULL_OFF * if of_grid { 1.25 } else { 1.0 };
-        let coarse = if of_grid { " and on half as many along the sides" } else { "" };
+        let seconds = self.seconds_of_application()? * PULL_OFF;
+        let (solves, coarse) = if of_grid { (9, ", after as many on each coarser grid") } else { (12, "") };
         let finer = if refines { ", and four times as long on each finer grid" } else { "" };
-        Ok(format!("some 12 solves on {nx} x {ny} nodes{coarse}: about {}{finer}", time(seconds)))
+        Ok(format!("some {solves} solves on {nx} x {ny} nodes{coarse}: about {}{finer}", time(seconds)))
     }
 
     /// The grid of the operator, on which the next state follows.
