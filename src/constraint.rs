@@ -142,7 +142,7 @@ impl<'a, T> Wall<'a, T> {
     }
 
     /// Whether the gap is confined to g ≥ 0.
-    pub fn is_rigid(&self) -> bool {
+    pub(crate) fn is_rigid(&self) -> bool {
         matches!(self, Self::Rigid)
     }
 

@@ -253,7 +253,7 @@ impl Error {
     }
 
     /// A function of a law or of springs that is not finite at a gap.
-    pub fn not_finite(function: &'static str, gap: f64, value: f64) -> Self {
+    pub(crate) fn not_finite(function: &'static str, gap: f64, value: f64) -> Self {
         Self::Contract { function, value, place: Place::Gap(gap), breach: Breach::Finite }
     }
 

@@ -74,7 +74,7 @@
 //! | feature | adds |
 //! |---|---|
 //! | `parallel` (default) | threads, with the same results bit for bit |
-//! | `mpi` | processes, with the same results bit for bit: the type `World` |
+//! | `mpi` | processes, with the same results bit for bit: the type `World`, which docs.rs lacks, as it has no MPI |
 //! | `serde` | settings, controls, reports and statistics as data, with the names of the reports; sweeps, searches and paths, which continue bit for bit |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.

@@ -131,7 +131,7 @@ impl<'a> Gap<'a> {
     }
 
     /// Whether opposite sides meet.
-    pub fn is_periodic(&self) -> bool {
+    pub(crate) fn is_periodic(&self) -> bool {
         self.periodic
     }
 
