@@ -2,14 +2,16 @@
 
 import os
 import sys
-from importlib.metadata import version as installed
+from importlib.metadata import metadata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 project = "asperity"
 author = "The asperity developers"
-version = release = installed("asperity")
+package = metadata("asperity")
+version = release = package["Version"]
+addresses = dict(address.split(", ") for address in package.get_all("Project-URL"))
 
 extensions = [
     "myst_nb",  # Markdown, and notebooks that are executed
@@ -42,13 +44,14 @@ suppress_warnings = ["ref.python"]
 autodoc_member_order = "bysource"
 
 html_theme = "pydata_sphinx_theme"
-html_title = "asperity"
+html_title = f"asperity {version}"
 templates_path = ["_templates"]
 html_static_path = ["_static"]
 html_css_files = ["asperity.css"]
 html_copy_source = False
 html_theme_options = {
     "navbar_align": "left",
+    "icon_links": [{"name": "Repository", "url": addresses["Source Code"], "icon": "fa-brands fa-git-alt"}],
     "header_links_before_dropdown": 8,
     "show_toc_level": 2,
     "footer_start": ["copyright"],
