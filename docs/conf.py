@@ -51,6 +51,7 @@ html_css_files = ["asperity.css"]
 html_copy_source = False
 html_theme_options = {
     "navbar_align": "left",
+    "navbar_persistent": ["search-button"],
     "icon_links": [{"name": "Repository", "url": addresses["Source Code"], "icon": "fa-brands fa-git-alt"}],
     "header_links_before_dropdown": 8,
     "show_toc_level": 2,
