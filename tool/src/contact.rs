@@ -6,15 +6,14 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Grid};
 use asperity_plot::{Chart, Paper, Picture};
 use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
-use asperity_scene::{Inputs, key};
-use clap::Args;
+use asperity_scene::{Inputs, Kind, key, keys};
 use serde_json::{Value, json};
 
-use crate::Call;
+use crate::command::Call;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::write_text;
-use crate::pictures::{PaperOptions, PictureFormat};
+use crate::pictures::{FormatKeys, PaperOptions};
 use crate::printing::{Printing, aligned};
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE};
 use crate::report;
@@ -23,49 +22,42 @@ use crate::scene;
 use crate::solved::{CONTACT_PRESSURE, GAP, Solved, units_of};
 use crate::units::Units;
 
-/// Tabulate and chart the contact of a solve.
-///
-/// The tables are the distributions of gap and contact pressure, the autocorrelation of the pressure, and the clusters.
-/// SOLVED is the folder of a solve, from which gap.npy, contact_pressure.npy and report.json are read. Near the edge of
-/// the contact the densities of gap and contact pressure are powers of them, with the exponents -1/3 and 1 at a hard
-/// wall without adhesion. The exponents are determined in a window above the values of the nodes next to the edge,
-/// where the grid distorts the density; if no window fits, they are unknown. The autocorrelation of the contact
-/// pressure is about its mean and over its variance, in a periodic cell.
-#[derive(Args)]
-#[command(after_help = EXAMPLES, mut_args(results::of_files))]
-pub struct Options {
-    /// Folder of a solve
-    #[arg(value_name = "SOLVED")]
-    solved: PathBuf,
-    /// Folder for gap.csv and pressure.csv, the densities over the nodes in bins that are equally wide in the
-    /// logarithm, autocorrelation.csv, clusters.csv with area, perimeter and force of each, a chart of each of these,
-    /// report.json, and scene.toml
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    out: Option<PathBuf>,
-    /// Replace results that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    /// Format of the charts
-    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
-    picture_format: PictureFormat,
-    #[command(flatten)]
-    size: PaperOptions,
-    #[command(flatten)]
-    printing: Printing,
+keys! {
+    /// Tabulate and chart the contact of a solve.
+    ///
+    /// The tables are the distributions of gap and contact pressure, the autocorrelation of the pressure, and the clusters.
+    /// SOLVED is the folder of a solve, from which gap.npy, contact_pressure.npy and report.json are read. Near the edge of
+    /// the contact the densities of gap and contact pressure are powers of them, with the exponents -1/3 and 1 at a hard
+    /// wall without adhesion. The exponents are determined in a window above the values of the nodes next to the edge,
+    /// where the grid distorts the density; if no window fits, they are unknown. The autocorrelation of the contact
+    /// pressure is about its mean and over its variance, in a periodic cell.
+    ///
+    /// # Examples
+    ///     asperity solve --heights heights.npy --mean-pressure 0.01 --out pressed
+    ///     asperity contact pressed
+    ///     asperity contact pressed --out contact --picture-format svg
+    Options {
+        "Output" {
+            /// Folder of a solve
+            solved: PathBuf = Kind::file().positional(&["SOLVED"]).required(),
+            /// Folder for gap.csv and pressure.csv, the densities over the nodes in bins that are equally wide in the
+            /// logarithm, autocorrelation.csv, clusters.csv with area, perimeter and force of each, a chart of each of
+            /// these, report.json, and scene.toml
+            out: Option<PathBuf> = Kind::folder(),
+            /// Replace results that are there
+            force: bool = Kind::switch(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-    asperity solve --heights heights.npy --mean-pressure 0.01 --out pressed
-    asperity contact pressed
-    asperity contact pressed --out contact --picture-format svg";
 
 /// The names of the tables and of their charts.
 const NAMES: [&str; 4] = ["gap", "pressure", "autocorrelation", "clusters"];
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
-    let &Options { solved: ref folder, ref out, force, picture_format, size, printing } = options;
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let (Options { solved: folder, out, force }, FormatKeys { picture_format }) = (scene.keys(), scene.keys());
+    let (paper, printing) = (scene.keys::<PaperOptions>().paper(), scene.keys::<Printing>());
+    let folder = &*folder;
     let files = || results::files(&NAMES.map(|name| format!("{name}.csv")).each_ref().map(String::as_str), &NAMES);
     let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
     results.iter().try_for_each(|results| results.check(Solved::files(folder, &[GAP, CONTACT_PRESSURE])))?;
@@ -89,7 +81,7 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         report::report("contact", json!(figures), &inputs)
     };
     let write = |results: &Results<'_>| {
-        let found = Found { tables: &tables, grid, units: &units, paper: size.paper() };
+        let found = Found { tables: &tables, grid, units: &units, paper };
         let parts = NAMES.into_iter().zip(found.parts()?).filter_map(|(name, part)| Some((name, part?)));
         let parts: Vec<_> = parts.collect();
         results.write(results.folder()?, |folder| {

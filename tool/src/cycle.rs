@@ -4,97 +4,90 @@ use std::path::PathBuf;
 
 use asperity_scene::legs::value;
 use asperity_scene::{
-    Account, AdhesionKeys, Chosen, CycleAccuracyKeys, CycleLimit, CycleLimits, Load, LoadsKeys, PathKeys, Session,
-    Skin, SolverKeys, Step, SurfaceKeys, UnitKeys, Way, key, unbalanced,
+    Account, CycleLimit, CycleLimits, Given, Kind, Load, Session, Skin, Step, Way, key, keys, unbalanced,
 };
-use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
-use crate::Call;
 use crate::columns::Columns;
-use crate::options::{ProblemOptions, Scalar};
+use crate::command::Call;
+use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::pictures::{PaperOptions, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, in_options, say, warn};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, PRESSURE};
 use crate::report::LAST;
-use crate::table::{Fill, Manner, Table, TableOptions, format_of};
+use crate::table::{Fill, Table, TableOptions, format_of};
 use crate::units::Units;
 
-/// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
-///
-/// Numbers may have units, all of them or none, as for asperity solve. The loads are the turning points, at least two:
-/// the first is the start, and the program goes from each to the next in adaptive steps, on approach or withdrawal. A
-/// withdrawal ends once the surfaces do not touch, and hardly attract each other: below a thousandth of the greatest
-/// tension. Where the state jumps, the step is halved down to a given share of the way, which locates the jump and the
-/// energy that it dissipates. A limit point is the greatest or least load of a branch; beyond it, a cycle along
-/// pressures or forces continues at given mean gaps (with a free boundary at given approaches). Each state gives a row
-/// of the file. It has the columns of asperity sweep, the work of the load and the energy dissipated in jumps so far,
-/// the imbalance of energy (all per area), and the event on the way to it: touch, jump-in, jump-out, pull-off,
-/// limit-point, bifurcation. With jkr the same cycle on half as many nodes along the sides tells the limits of no range
-/// of the work and of the greatest tension, with their errors, and --accuracy chooses the grid by them. With a hardness the surface keeps its plastic depth, and
-/// the balance has the energy that yielding dissipates. The same command continues an interrupted cycle; for that it
-/// keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
-/// continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be
-/// written.
-#[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
-pub struct Options {
-    #[command(flatten)]
-    problem: Chosen<(SurfaceKeys, LoadsKeys, PathKeys, AdhesionKeys, SolverKeys, CycleAccuracyKeys)>,
-
-    /// File for the rows, .csv or .jsonl (one JSON object per line)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    out: PathBuf,
-    /// Folder for the fields at the jumps, made if needed: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy
-    /// and so on, for the rows with an event, the rows before them, and the last row
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    fields: Option<PathBuf>,
-    /// File for a picture of the mean pressure over the mean gap, or with a free boundary of the normal force over the
-    /// approach, with jumps as dashed lines; .png, .svg or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-    #[command(flatten)]
-    size: PaperOptions,
-    #[command(flatten)]
-    units: Chosen<UnitKeys>,
-    #[command(flatten)]
-    pub manner: Manner,
+keys! {
+    /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
+    ///
+    /// Numbers may have units, all of them or none, as for asperity solve. The loads are the turning points, at least two:
+    /// the first is the start, and the program goes from each to the next in adaptive steps, on approach or withdrawal. A
+    /// withdrawal ends once the surfaces do not touch, and hardly attract each other: below a thousandth of the greatest
+    /// tension. Where the state jumps, the step is halved down to a given share of the way, which locates the jump and the
+    /// energy that it dissipates. A limit point is the greatest or least load of a branch; beyond it, a cycle along
+    /// pressures or forces continues at given mean gaps (with a free boundary at given approaches). Each state gives a row
+    /// of the file. It has the columns of asperity sweep, the work of the load and the energy dissipated in jumps so far,
+    /// the imbalance of energy (all per area), and the event on the way to it: touch, jump-in, jump-out, pull-off,
+    /// limit-point, bifurcation. With jkr the same cycle on half as many nodes along the sides tells the limits of no range
+    /// of the work and of the greatest tension, with their errors, and --accuracy chooses the grid by them. With a hardness the surface keeps its plastic depth, and
+    /// the balance has the energy that yielding dissipates. The same command continues an interrupted cycle; for that it
+    /// keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
+    /// continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be
+    /// written.
+    ///
+    /// # Examples
+    ///   Approach and withdrawal of a map of 1 by 1, with a picture of the loop:
+    ///     asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \
+    ///       --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+    ///   Press, and pull until it comes off:
+    ///     asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \
+    ///       --range 4e-3 --mean-pressures 0.02,-1 --out pull-off.csv
+    ///   A tip on a free half-space, together from afar and apart again, with a picture of force over approach:
+    ///     asperity cycle --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \
+    ///       --range 4e-3 --approaches -0.03,0.01,-0.03 --out tip.csv --plot tip.png
+    Options {
+        "Output" {
+            /// File for the rows, .csv or .jsonl (one JSON object per line)
+            out: PathBuf = Kind::file().required(),
+            /// Folder for the fields at the jumps, made if needed: gap-0001.npy, pressure-0001.npy,
+            /// contact_pressure-0001.npy and so on, for the rows with an event, the rows before them, and the last row
+            fields: Option<PathBuf> = Kind::folder(),
+            /// File for a picture of the mean pressure over the mean gap, or with a free boundary of the normal force over
+            /// the approach, with jumps as dashed lines; .png, .svg or .pdf
+            plot: Option<PathBuf> = Kind::file(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  Approach and withdrawal of a map of 1 by 1, with a picture of the loop:
-    asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
-      --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
-  Press, and pull until it comes off:
-    asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
-      --range 4e-3 --mean-pressures 0.02,-1 --out pull-off.csv
-  A tip on a free half-space, together from afar and apart again, with a picture of force over approach:
-    asperity cycle --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \\
-      --range 4e-3 --approaches -0.03,0.01,-0.03 --out tip.csv --plot tip.png";
 
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
-    let Options { out, fields, plot, manner, .. } = options;
-    let format = format_of(out, "")?;
-    processes.first(|| check_plot(plot.as_deref(), out, manner.force))?;
-    let (problem, fields) = (&options.problem()?, fields.as_deref());
-    TableOptions { problem, out, format, fields, scene, processes, manner, interface: false }.fill(options)
+pub fn run(call: &Call<'_>) -> Outcome<bool> {
+    let options = &call.scene.keys::<Options>();
+    let Options { out, fields, plot } = options;
+    let table = TableOptions::of(call, out, format_of(out, "")?, fields.as_deref())?;
+    call.processes.first(|| check_plot(plot.as_deref(), out, table.manner.force))?;
+    table.fill(options)
 }
 
 impl Fill for Options {
-    fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
-        Ok(Way::cycle(loads, full, self.problem.0.path())?)
+    fn way(&self, loads: &[Load], full: f64, given: &Given) -> Outcome<Way> {
+        Ok(Way::cycle(loads, full, given.path())?)
     }
 
-    fn refine<T: Scalar>(&self, session: &mut Session<T>, way: &Way, is_started: bool) -> Outcome<()> {
-        let Some(goal) = in_options(self.problem.0.cycle_goal())? else { return Ok(()) };
-        let (printing, tolerance) = (self.manner.printing, session.scene().tolerance());
+    fn refine<T: Scalar>(
+        &self,
+        session: &mut Session<T>,
+        way: &Way,
+        table: &TableOptions<'_>,
+        is_started: bool,
+    ) -> Outcome<()> {
+        let Some(goal) = in_options(table.scene.given.cycle_goal())? else { return Ok(()) };
+        let (printing, tolerance) = (table.manner.printing, session.scene().tolerance());
         printing.say(&format!("accuracy {} of the {}: the cycle on coarser grids first", goal.accuracy, goal.of));
         let mut progress = Progress::new("", tolerance, 0, printing.without_bars());
         let chosen = session.refine(way, goal, is_started, &mut progress.on_grids());
@@ -107,7 +100,11 @@ impl Fill for Options {
         table.announce();
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
-            self.manner.printing.say(&format!("{:>4}  {}{event}", table.session.rows(), table.brief(&row.account)));
+            table.options.manner.printing.say(&format!(
+                "{:>4}  {}{event}",
+                table.session.rows(),
+                table.brief(&row.account)
+            ));
         }
         let limit = table.limit()?;
         let shortfall = limit.as_ref().and_then(|limit| limit.shortfall(Skin::Options));
@@ -118,19 +115,14 @@ impl Fill for Options {
 }
 
 impl Options {
-    /// The problem.
-    pub fn problem(&self) -> Outcome<ProblemOptions> {
-        ProblemOptions::of([&self.problem.0, &self.units.0])
-    }
-
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limits: Option<CycleLimits>) -> Outcome<()> {
         let (rows, units, free) = (&table.session.read()?, table.session.units(), table.is_free());
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         let limit = limits.as_ref().map(|limits| limits.limit);
         let followed = Followed { rows, units, free, axes: [x, y], limit, limits };
-        self.manner.printing.report(|| table.report(followed.report()));
-        if self.manner.printing.for_people() {
+        table.options.manner.printing.report(|| table.report(followed.report()));
+        if table.options.manner.printing.for_people() {
             say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
             followed.lines().iter().for_each(|line| say(line));
         }
@@ -138,7 +130,12 @@ impl Options {
             warn(format!("{}: {text}", printing::name(&self.out)));
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        table.first(|| write_picture(plot, &chart_of_columns(rows, x, y, units, self.size.paper())?))
+        table.first(|| {
+            write_picture(
+                plot,
+                &chart_of_columns(rows, x, y, units, table.options.scene.keys::<PaperOptions>().paper())?,
+            )
+        })
     }
 }
 

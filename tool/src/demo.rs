@@ -7,53 +7,44 @@ use asperity::{Amplitude, Grid, SelfAffine, Status};
 use asperity_maps::Topography;
 use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map};
-use asperity_scene::{Map as HeightMap, Maps};
-use clap::{Args, CommandFactory};
+use asperity_scene::{Kind, Map as HeightMap, Maps, keys};
 use serde_json::json;
 
-use crate::allowed::threads;
+use crate::called;
+use crate::command::Call;
 use crate::heights::named;
+use crate::options::ProblemOptions;
 use crate::outcome::Outcome;
-use crate::pictures::{self, PaperOptions, PictureFormat};
+use crate::pictures::{self, FormatKeys, PaperOptions};
 use crate::printing::{Printing, name, on_terminal};
 use crate::progress::Progress;
 use crate::results::Results;
 use crate::scene::{self, SceneFile};
 use crate::session::Strictness;
-use crate::solve;
 use crate::summary::{table, warn};
 use crate::threads::{count, use_threads};
 use crate::units::Units;
-use crate::{Call, Command, Tool, parsed};
 
-/// Press a built-in rough surface, without and with adhesion at the same load.
-///
-/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Also writes scene.toml:
-/// asperity run repeats the case with adhesion from it, for you to change and try.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    /// Folder for the maps; maps of an earlier demo are replaced
-    #[arg(long, value_name = "DIR", default_value = "asperity-demo", help_heading = "Output")]
-    out: PathBuf,
-    /// Format of the maps
-    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
-    picture_format: PictureFormat,
-    #[command(flatten)]
-    size: PaperOptions,
-    #[command(flatten)]
-    printing: Printing,
-    /// Threads; the results do not depend on it [default: one per core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Output")]
-    threads: Option<usize>,
+keys! {
+    /// Press a built-in rough surface, without and with adhesion at the same load.
+    ///
+    /// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Also writes scene.toml:
+    /// asperity run repeats the case with adhesion from it, for you to change and try.
+    ///
+    /// # Examples
+    ///   Then the case with adhesion at half the pressure, and what is left of it without adhesion:
+    ///     asperity demo
+    ///     asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --out lighter
+    ///     asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --law none --out bare
+    Options {
+        "Output" {
+            /// Folder for the maps; maps of an earlier demo are replaced
+            out: PathBuf = Kind::folder().or("asperity-demo"),
+            /// Threads; the results do not depend on it [default: one per core]
+            threads: Option<usize> = Kind::threads(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  Then the case with adhesion at half the pressure, and what is left of it without adhesion:
-    asperity demo
-    asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --out lighter
-    asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --law none --out bare";
 
 /// The contact, as people read it, and as options of `asperity solve`.
 const TOLD: &str = "\
@@ -66,18 +57,18 @@ const GIVEN: &str = "--lengths 1um --modulus 1GPa --mean-pressure 5MPa";
 const CASES: [(&str, &str); 2] = [("without adhesion", ""), ("with adhesion", "--law jkr --work-of-adhesion 50mJ/m2")];
 
 /// Runs the command; whether both solves converged.
-pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<bool> {
-    let &Options { ref out, printing, picture_format, size, .. } = options;
+pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
+    let (Options { out, threads }, FormatKeys { picture_format }) = (scene.keys(), scene.keys());
+    let (paper, printing) = (scene.keys::<PaperOptions>().paper(), scene.keys::<Printing>());
     let cases = CASES.map(|(name, _)| name.replace(' ', "-"));
     let map = |what: &str| cases.each_ref().map(|case| picture_format.file(&format!("{what}-{case}")));
     let (contacts, pressures, heights_map) = (map("contact"), map("pressure"), picture_format.file("heights"));
     let maps = [&heights_map].into_iter().chain(&contacts).chain(&pressures).cloned();
     let files: Vec<_> = maps.chain(["heights.npy", scene::NAME].map(str::to_owned)).collect();
-    let (bare_options, bare_scene) = solve_options(out, 0)?;
-    let (sticky_options, scene) = solve_options(out, 1)?;
-    let results = Results { out, scene: &scene, files, force: true };
+    let [bare, sticky] = [called(arguments(&out, 0))?, called(arguments(&out, 1))?];
+    let results = Results { out: &out, scene: &sticky, files, force: true };
     results.check([] as [&Path; 0])?;
-    use_threads(options.threads)?;
+    use_threads(threads)?;
 
     let (grid, units) = (Grid::square(512, 1e-6)?, Units::si());
     let spectrum = SelfAffine::default().k_l(3.0).k_r(3.0).k_s(40.0).amplitude(Amplitude::RmsHeight(5e-9)).seed(2017);
@@ -86,10 +77,9 @@ pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<boo
     let heights = surface.heights().clone();
     let mut map = Topography::from(surface);
     map.unit = units.length.clone();
-    let solved = |name, options: &solve::Options, scene: &SceneFile| -> Outcome<_> {
-        let problem = &options.problem()?;
-        let (case, map) =
-            (problem.case.among(scene.quantities()), HeightMap::whole(named(&problem.files.heights), map.clone()));
+    let solved = |name, scene: &SceneFile| -> Outcome<_> {
+        let ProblemOptions { case, files } = ProblemOptions::of(&scene.given)?;
+        let map = HeightMap::whole(named(&files.heights), map.clone());
         let posed = case.on(Maps::of(map), count(), processes)?;
         let mut progress = Progress::new(name, case.scene().tolerance(), grid.nodes(), printing.without_bars());
         let session = Strictness::default().session::<f64>(posed, processes)?;
@@ -99,8 +89,8 @@ pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<boo
         solved.look()?;
         Ok((solved.found.solution, solved.account))
     };
-    let (bare, without) = solved("without adhesion", &bare_options, &bare_scene)?;
-    let (sticky, with) = solved("with adhesion", &sticky_options, &scene)?;
+    let (bare, without) = solved("without adhesion", &bare)?;
+    let (sticky, with) = solved("with adhesion", &sticky)?;
 
     results.write(results.folder()?, |folder| {
         let map = Map {
@@ -111,23 +101,22 @@ pub fn run(options: &Options, &Call { processes, .. }: &Call<'_>) -> Outcome<boo
             unit: Some("m"),
             ..Map::new(heights.view(), grid, Colouring::Sequential)
         };
-        map.draw(size.paper())?.write(folder.path(&heights_map))?;
+        map.draw(paper)?.write(folder.path(&heights_map))?;
         write_npy(folder.path("heights.npy"), &heights)?;
         for (k, solution) in [&bare, &sticky].into_iter().enumerate() {
             let [contact, pressure] = ["Contact", "Pressure"].map(|what| format!("{what} {}", CASES[k].0));
             let regions = solution.regions().mapv(f64::from);
-            pictures::draw_contact(grid, &contact, &units, &regions, None, size.paper())?
-                .write(folder.path(&contacts[k]))?;
+            pictures::draw_contact(grid, &contact, &units, &regions, None, paper)?.write(folder.path(&contacts[k]))?;
             let (shown, titles) = (pictures::pressure_to_draw(solution, k == 1), (&*pressure, "mean 5 MPa"));
-            let picture = pictures::draw_pressure(grid, titles, &units, shown, None, size.paper())?;
+            let picture = pictures::draw_pressure(grid, titles, &units, shown, None, paper)?;
             picture.write(folder.path(&pressures[k]))?;
         }
         Ok(())
     })?;
 
     printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units));
-    printing.say(&format!("\nmaps in {}: {}\n", name(out), results.files.join(", ")));
-    let command: Vec<_> = arguments(out, 1).iter().map(|word| quoted(word)).collect();
+    printing.say(&format!("\nmaps in {}: {}\n", name(&out), results.files.join(", ")));
+    let command: Vec<_> = arguments(&out, 1).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
     printing.say(&format!(
         "the case with adhesion again, by its options or by its scene:\n  {}\n  asperity run {}",
@@ -146,14 +135,6 @@ fn arguments(folder: &Path, case: usize) -> Vec<OsString> {
     let heights = ["asperity".into(), "solve".into(), "--heights".into(), folder.join("heights.npy").into()];
     let out = ["--out".into(), folder.join(name.replace(' ', "-")).into()];
     heights.into_iter().chain(given).chain(out).collect()
-}
-
-/// The options of `asperity solve` for a case, and its scene.
-fn solve_options(folder: &Path, case: usize) -> Outcome<(Box<solve::Options>, SceneFile)> {
-    match parsed(&mut Tool::command(), arguments(folder, case)) {
-        Ok((Command::Solve(options), scene)) => Ok((options, scene)),
-        _ => Err(format!("--out {}: is no name that solve takes, choose another", folder.display()).into()),
-    }
 }
 
 /// A word with the quotation marks that a shell needs.

@@ -1,4 +1,4 @@
-//! Files of options, in TOML, and their entries as words of a command line. (`scene.rs` writes such files.)
+//! Files of options, in TOML, and what their entries give for the keys of a command. (`scene.rs` writes such files.)
 
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -6,18 +6,20 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use asperity::Error;
-use clap::{Arg, ArgAction, Command};
+use asperity_scene::{Given, Key, Skin, Values};
+use clap::Arg;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-use crate::hints::meant_by;
-use crate::scene::{is_path, key, section};
+use crate::command::{Command, mistake};
+use crate::hints::{hinted, meant_by};
+use crate::printing::on_one_line;
 use crate::synonyms::similar;
 
 /// Reads a file of options.
 pub fn document(path: &Path) -> asperity::Result<Table> {
-    let refuse = |reason: String| Error::file(path, reason);
+    let refuse = |reason: String| asperity::Error::file(path, reason);
     let text = fs::read_to_string(path).map_err(|e| match e.kind() {
         std::io::ErrorKind::NotFound => refuse("does not exist: check the path".to_owned()),
         std::io::ErrorKind::IsADirectory => refuse("is a folder: name a scene file in it".to_owned()),
@@ -60,7 +62,7 @@ fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
 /// The options of a scene, before the first section and in all sections. Sections that have been taken out of the table
 /// are only named.
 pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(String, Value)>, String> {
-    let mut sections: Vec<_> = command.get_arguments().map(section).collect();
+    let mut sections: Vec<_> = command.keys().map(|key| key.section.to_lowercase()).collect();
     sections.retain(|section| !section.is_empty());
     let mut seen = HashSet::new();
     sections.retain(|section| seen.insert(section.clone()));
@@ -83,7 +85,7 @@ pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(S
                 let names: Vec<_> = known.iter().map(|section| format!("[{section}]")).collect();
                 let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
                 let hint = similar(&key, known).map_or(String::new(), |meant| format!(": did you mean [{meant}]?"));
-                return Err(format!("[{key}] is no section of {}, which has {names}{hint}", command.get_name()));
+                return Err(format!("[{key}] is no section of {}, which has {names}{hint}", command.name));
             }
             value => add(key, value)?,
         }
@@ -91,59 +93,110 @@ pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(S
     Ok(entries)
 }
 
-/// An option of a scene as words of a command line. Only options that cannot be typed at all are refused here; all
-/// others are for the parser of the arguments to judge.
-pub fn spelled(entry: &str, value: &Value, command: &Command, folder: &Path) -> Result<Vec<OsString>, String> {
-    let name = format!("--{entry}");
-    let Some(option) = command.get_arguments().find(|option| key(option).as_deref() == Some(entry)) else {
-        let typed = entry.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_');
-        // not even known options that ask for help
-        let unknown = typed && !["help", "version"].contains(&entry);
-        return if unknown { Ok(vec![name.into()]) } else { Err(format!("\"{entry}\" is no option: remove it")) };
-    };
-    if matches!(option.get_action(), ArgAction::SetTrue) {
-        return match value {
-            Value::Boolean(true) => Ok(vec![name.into()]),
-            Value::Boolean(false) => Ok(Vec::new()),
-            other => {
-                let hint = meant_by(command, entry, "").map_or(String::new(), |hint| format!("; {hint}"));
-                Err(format!("{entry} is {other}: it must be true or false{hint}"))
-            }
-        };
-    }
-    let least = option.get_num_args().map_or(1, |count| count.min_values());
-    if let (0, Value::Boolean(is_given)) = (least, value) {
-        return Ok(is_given.then(|| name.into()).into_iter().collect());
-    }
-    let word = |value: &Value| match value {
-        Value::String(word) if is_path(option) && !word.is_empty() => {
-            Ok(folder.join(word).components().collect::<PathBuf>().into())
-        }
-        Value::String(word) => Ok(word.into()),
-        Value::Integer(_) | Value::Float(_) if !is_path(option) => Ok(value.to_string().into()),
-        other => Err(format!("{entry} is {other}: it must be {}", wanted(option))),
-    };
-    let words = match value {
-        Value::Array(values) => values.iter().map(word).collect::<Result<Vec<_>, _>>()?,
-        value => vec![word(value)?],
-    };
-    if option.is_positional() {
-        return Ok(words);
-    }
-    let most = option.get_num_args().map_or(1, |count| count.max_values());
-    if most > 1 && words.len() > most {
-        return Err(format!("{entry} has {} values: give {most} at most", words.len()));
-    }
-    // values with commas between them may be negative
-    if most > 1 && option.get_value_delimiter().is_none() {
-        return Ok(std::iter::once(name.into()).chain(words).collect());
-    }
-    let mut typed = OsString::from(name + "=");
-    typed.push(words.join(&OsString::from(",")));
-    Ok(vec![typed])
+/// A reader of the entries of a scene.
+pub struct Reader<'a> {
+    pub command: &'static Command,
+    /// The parser of the tool, for its words
+    pub tool: &'a clap::Command,
+    /// The folder of the scene, from which files are named
+    pub folder: &'a Path,
 }
 
-/// The kinds of values that an option takes, in words.
-fn wanted(option: &Arg) -> &'static str {
-    if is_path(option) { "a name in quotation marks" } else { "a number, a word in quotation marks, or a list of them" }
+impl Reader<'_> {
+    /// The parser of the command.
+    pub fn parser(&self) -> &clap::Command {
+        self.tool.find_subcommand(self.command.name).unwrap_or(self.tool)
+    }
+
+    /// What entries give for the keys, without defaults.
+    pub fn read<'e>(&self, entries: impl IntoIterator<Item = &'e (String, Value)>) -> Result<Given, String> {
+        let mut given = Given::default();
+        for (name, value) in entries {
+            let key = self.command.keys().find(|key| key.dashed() == *name).ok_or_else(|| self.unknown(name))?;
+            let invalid = |(text, _): (String, String)| self.invalid(ErrorKind::ValueValidation, key, &text);
+            given.add(key, self.typed(key, value)?, false).map_err(invalid)?;
+        }
+        Ok(given)
+    }
+
+    /// All that is given, with defaults, unless it is not enough or excludes itself.
+    pub fn complete(&self, given: &Given) -> Result<Given, String> {
+        let given = given.complete(self.command.keys());
+        self.command.check(&given, self.parser()).map_err(|error| on_one_line(&error))?;
+        given.quantities().check(Skin::Options)?;
+        Ok(given)
+    }
+
+    /// The texts of a key, of a value.
+    fn typed(&self, key: &Key, value: &Value) -> Result<Vec<OsString>, String> {
+        let (entry, kind, is_path) = (key.dashed(), &key.kind, matches!(key.kind.values, Values::File));
+        match (kind.values, kind.alone, value) {
+            (Values::Switch, _, Value::Boolean(true)) => return Ok(vec!["true".into()]),
+            (Values::Switch, _, Value::Boolean(false)) | (_, Some(_), Value::Boolean(false)) => return Ok(Vec::new()),
+            (_, Some(alone), Value::Boolean(true)) => return Ok(vec![alone.into()]),
+            (Values::Switch, _, other) => {
+                let hint = meant_by(self.parser(), &entry, "").map_or(String::new(), |hint| format!("; {hint}"));
+                return Err(format!("{entry} is {other}: it must be true or false{hint}"));
+            }
+            _ => {}
+        }
+        let wanted = if is_path {
+            "a name in quotation marks"
+        } else {
+            "a number, a word in quotation marks, or a list of them"
+        };
+        let text = |value: &Value| match value {
+            Value::String(name) if is_path && name.is_empty() => Err(self.invalid(ErrorKind::InvalidValue, key, "")),
+            Value::String(name) if is_path => Ok(self.folder.join(name).components().collect::<PathBuf>().into()),
+            Value::String(word) => Ok(word.into()),
+            Value::Integer(_) | Value::Float(_) if !is_path => Ok(value.to_string().into()),
+            other => Err(format!("{entry} is {other}: it must be {wanted}")),
+        };
+        let texts: Vec<OsString> = match value {
+            Value::Array(values) => values.iter().map(text).collect::<Result<_, _>>()?,
+            value => vec![text(value)?],
+        };
+        let (least, most) = kind.count;
+        let texts = match () {
+            () if kind.commas => texts
+                .iter()
+                .flat_map(|text| text.to_string_lossy().split(',').map(OsString::from).collect::<Vec<_>>())
+                .collect(),
+            () if most == 1 => vec![texts.join(&OsString::from(","))],
+            () => texts,
+        };
+        if most > 1 && !(least..=most).contains(&texts.len()) {
+            let limit = if texts.len() > most { format!("{most} at most") } else { least.to_string() };
+            return Err(format!("{entry} has {} values: give {limit}", texts.len()));
+        }
+        Ok(texts)
+    }
+
+    /// The mistake of an entry that is no option.
+    fn unknown(&self, entry: &str) -> String {
+        // not even known options that ask for help
+        if !entry.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_') || ["help", "version"].contains(&entry) {
+            return format!("\"{entry}\" is no option: remove it");
+        }
+        let alike = similar(entry, self.parser().get_arguments().filter_map(Arg::get_long));
+        let alike = alike.map(|alike| (ContextKind::SuggestedArg, format!("--{alike}")));
+        let context = alike.into_iter().chain([(ContextKind::InvalidArg, format!("--{entry}"))]);
+        self.told(ErrorKind::UnknownArgument, context)
+    }
+
+    /// The mistake of a text that is no value of a key.
+    fn invalid(&self, kind: ErrorKind, key: &Key, text: &str) -> String {
+        let option = self.parser().get_arguments().find(|arg| arg.get_id() == key.name).map(Arg::to_string);
+        self.told(
+            kind,
+            [(ContextKind::InvalidArg, option.unwrap_or_default()), (ContextKind::InvalidValue, text.to_owned())],
+        )
+    }
+
+    /// A mistake with what may have been meant, on a line.
+    fn told(&self, kind: ErrorKind, context: impl IntoIterator<Item = (ContextKind, String)>) -> String {
+        let context = context.into_iter().map(|(kind, text)| (kind, ContextValue::String(text)));
+        let arguments = ["asperity", self.command.name].map(OsString::from);
+        on_one_line(&hinted(self.tool, &arguments, mistake(kind, self.parser(), context)))
+    }
 }

@@ -3,12 +3,11 @@
 use std::any::TypeId;
 use std::ffi::OsString;
 
-use asperity_scene::Key;
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgAction, Command};
 
 use crate::loads::Loads;
-use crate::scene::key;
+use crate::named;
 use crate::synonyms::{is_same, meant};
 
 /// A mistake in the arguments of a `tool`, with what may have been meant.
@@ -29,7 +28,9 @@ pub fn hinted(tool: &Command, arguments: &[OsString], mut error: Error) -> Error
         (ErrorKind::ValueValidation, Some(command)) => of_several(tool, command, word, value),
         _ => Vec::new(),
     };
-    if let (true, Some(key)) = (hints.is_empty(), Key::named(&word.trim_start_matches('-').replace('-', "_")))
+    let keys = named(name).into_iter().flat_map(|command| command.keys());
+    if let (true, Some(key)) =
+        (hints.is_empty(), keys.into_iter().find(|key| key.dashed() == word.trim_start_matches('-')))
         && let ErrorKind::ValueValidation | ErrorKind::InvalidValue = error.kind()
         && let Err(reason) = key.value(value)
     {
@@ -47,8 +48,8 @@ pub fn hinted(tool: &Command, arguments: &[OsString], mut error: Error) -> Error
 
 /// The option that is meant by the name of none, with what its help says of it first.
 pub fn meant_by(command: &Command, name: &str, dashes: &str) -> Option<String> {
-    let known: Vec<_> = command.get_arguments().filter(|option| !option.is_positional()).filter_map(key).collect();
-    let meant = meant(name, known.iter().map(String::as_str))?;
+    let known: Vec<_> = command.get_arguments().filter_map(Arg::get_long).collect();
+    let meant = meant(name, known)?;
     let option = find(command, meant)?;
     let help = option.get_help()?.to_string();
     let (first, rest) = help.split_at_checked(1)?;

@@ -5,62 +5,52 @@ use std::path::PathBuf;
 
 use asperity::Error;
 use asperity_scene::interface::Code;
-use asperity_scene::{
-    AdhesionKeys, Boundary, Chosen, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
-    UnitKeys,
-};
-use clap::{ArgGroup, Args};
+use asperity_scene::{Boundary, Format, Kind, keys};
 use serde_json::{Value, json};
 
-use crate::Call;
-use crate::options::{ProblemOptions, Scalar};
+use crate::command::Call;
+use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, check_free, write_text};
 use crate::printing::{complain, in_options};
-use crate::table::{Fill, Manner, Table, TableOptions};
+use crate::table::{Fill, Table, TableOptions};
 
-/// Tabulate the law of an interface over the load, for finite elements.
-///
-/// Solves like asperity sweep, and writes a row for each load: the mean pressure, the mean gap, the closure, the
-/// contact area, and the contact stiffness with its relative error. The closure is the approach of the mean planes
-/// since the undeformed surfaces first touched, and the stiffness is the slope of the pressure over the closure.
-/// --resistivities, --conductivities and --leakage add conductance and transmissivity. --for adds files that a
-/// finite-element code reads: pressure over closure, and conductance and transmissivity over pressure, from zero
-/// pressure on. With adhesion the rows belong to one branch, and one of them needs a pressure of zero or less. Exits
-/// with 0 if all rows converged, 2 if not (then only the table is written), and 1 if the input is refused.
-#[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
-pub struct Options {
-    #[command(flatten)]
-    problem: Chosen<(SurfaceKeys, LoadsKeys, AdhesionKeys, SolverKeys)>,
-
-    /// File for the table, .csv
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    out: PathBuf,
-    /// Codes to write files for, next to the table and named after it: law.inp; law.pressure.txt and
-    /// law.conductance.txt; law.pressure.csv and law.conductance.csv
-    #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
-    codes: Vec<Code>,
-    #[command(flatten)]
-    asked: Chosen<(ConductorKeys, LeakageKeys, UnitKeys)>,
-    #[command(flatten)]
-    manner: Manner,
+keys! {
+    /// Tabulate the law of an interface over the load, for finite elements.
+    ///
+    /// Solves like asperity sweep, and writes a row for each load: the mean pressure, the mean gap, the closure, the
+    /// contact area, and the contact stiffness with its relative error. The closure is the approach of the mean planes
+    /// since the undeformed surfaces first touched, and the stiffness is the slope of the pressure over the closure.
+    /// --resistivities, --conductivities and --leakage add conductance and transmissivity. --for adds files that a
+    /// finite-element code reads: pressure over closure, and conductance and transmissivity over pressure, from zero
+    /// pressure on. With adhesion the rows belong to one branch, and one of them needs a pressure of zero or less. Exits
+    /// with 0 if all rows converged, 2 if not (then only the table is written), and 1 if the input is refused.
+    ///
+    /// # Examples
+    ///   Pressure and thermal conductance of a joint of steel over the closure, for Abaqus and MOOSE:
+    ///     asperity interface --heights heights.npy --lengths 20um --modulus 115GPa \
+    ///       --mean-pressures 1MPa:1GPa:12:log --conductivities 15W/mK 15W/mK \
+    ///       --for abaqus,moose --out joint.csv
+    ///   A seal with a transmissivity that falls with the pressure, for COMSOL:
+    ///     asperity interface --heights heights.npy --lengths 20um --modulus 10MPa \
+    ///       --mean-pressures 10kPa:1MPa:12:log --leakage --for comsol --out seal.csv
+    Options {
+        "Output" {
+            /// File for the table, .csv
+            out: PathBuf = Kind::file().required(),
+            /// Codes to write files for, next to the table and named after it: law.inp; law.pressure.txt and
+            /// law.conductance.txt; law.pressure.csv and law.conductance.csv
+            r#for: Vec<Code> = Kind::word(Code::words, &["CODE"]).commas(),
+        }
+    }
 }
 
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  Pressure and thermal conductance of a joint of steel over the closure, for Abaqus and MOOSE:
-    asperity interface --heights heights.npy --lengths 20um --modulus 115GPa \\
-      --mean-pressures 1MPa:1GPa:12:log --conductivities 15W/mK 15W/mK \\
-      --for abaqus,moose --out joint.csv
-  A seal with a transmissivity that falls with the pressure, for COMSOL:
-    asperity interface --heights heights.npy --lengths 20um --modulus 10MPa \\
-      --mean-pressures 10kPa:1MPa:12:log --leakage --for comsol --out seal.csv";
-
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
-    let Options { out, manner, .. } = options;
-    let problem = &ProblemOptions::of([&options.problem.0, &options.asked.0])?;
+pub fn run(call: &Call<'_>) -> Outcome<bool> {
+    let options = &call.scene.keys::<Options>();
+    let out = &options.out;
+    let table = TableOptions { interface: true, ..TableOptions::of(call, out, Format::Csv, None)? };
+    let problem = &table.problem;
     if problem.case.scene().elastic.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }
@@ -70,16 +60,15 @@ pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<
     }
     for (_, path) in options.files() {
         check_apart(&path, problem.files().chain([out.as_path()]))?;
-        check_free(&path, manner.force || out.exists(), "--out")?;
+        check_free(&path, table.manner.force || out.exists(), "--out")?;
     }
-    let format = Format::Csv;
-    TableOptions { problem, out, format, fields: None, scene, processes, manner, interface: true }.fill(options)
+    table.fill(options)
 }
 
 impl Options {
     /// The files that the codes may have, by their ends.
     fn files(&self) -> impl Iterator<Item = (&'static str, PathBuf)> {
-        let endings = self.codes.iter().flat_map(|code| code.endings());
+        let endings = self.r#for.iter().flat_map(|code| code.endings());
         endings.map(|ending| (*ending, self.out.with_extension(&ending[1..])))
     }
 
@@ -99,7 +88,7 @@ impl Options {
         let (adhesive, units) = (table.session.adheres(), table.session.units());
         let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
         let mut written = Vec::new();
-        for code in &self.codes {
+        for code in &self.r#for {
             for (ending, text) in in_options(code.files(rows, adhesive, &name, units))? {
                 let path = self.out.with_extension(&ending[1..]);
                 OutputFile::create(&path, true)?.complete(|path| write_text(path, &text))?;
@@ -114,20 +103,20 @@ impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let (rows, of_rows) = (table.session.rows(), table.session.of_rows());
         // while the table changes, files of its former rows are wrong
-        if self.manner.force || rows > 0 && of_rows != Some(rows) {
+        if table.options.manner.force || rows > 0 && of_rows != Some(rows) {
             table.first(|| self.clear())?;
         }
         let rows = table.solve()?;
         let converged = table.converged("or --tolerance");
-        if !converged && !self.codes.is_empty() {
+        if !converged && !self.r#for.is_empty() {
             complain("warning", "there are no files --for finite-element codes, since rows have not converged");
         }
         table.first(|| {
             let written = if converged { self.write(&rows, table)? } else { Vec::new() };
             if !written.is_empty() {
-                self.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
+                table.options.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
             }
-            self.manner.printing.report(|| table.report(json!({ "last": rows.last(), "files": written })));
+            table.options.manner.printing.report(|| table.report(json!({ "last": rows.last(), "files": written })));
             Ok(())
         })?;
         Ok(converged)

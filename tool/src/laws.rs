@@ -5,63 +5,53 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{AdhesionKeys, Chosen, LAWS, Law, Scalar, Skin, UnitKeys};
-use clap::Args;
-use clap::builder::PossibleValuesParser;
+use asperity_scene::{Kind, LAWS, Law, Scalar, Skin, Word, keys};
 
-use crate::Call;
 use crate::adhesion::table_of;
+use crate::command::Call;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::pictures::PaperOptions;
 use crate::printing::{bold, in_options, say};
 
-/// List the adhesion laws, with formula, parameters and source.
-///
-/// Tractions are over the gap g, attraction positive. Gaps count from the wall. Without a wall, gaps of lennard-jones
-/// count from its singularity, and gaps of morse from its equilibrium. With a law only this law is listed, and --plot
-/// draws it.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    /// The only law to list, in the place of --law
-    #[arg(value_name = "LAW", value_parser = PossibleValuesParser::new(LAWS.iter().map(|law| law.name)), conflicts_with = "law")]
-    name: Option<String>,
-    #[command(flatten)]
-    adhesion: Chosen<AdhesionKeys>,
-    /// File for a picture of the traction over the gap, .png, .svg or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    plot: Option<PathBuf>,
-    #[command(flatten)]
-    size: PaperOptions,
-    #[command(flatten)]
-    units: Chosen<UnitKeys>,
-    /// Replace a file that is there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
+keys! {
+    /// List the adhesion laws, with formula, parameters and source.
+    ///
+    /// Tractions are over the gap g, attraction positive. Gaps count from the wall. Without a wall, gaps of lennard-jones
+    /// count from its singularity, and gaps of morse from its equilibrium. With a law only this law is listed, and --plot
+    /// draws it.
+    ///
+    /// # Examples
+    ///   asperity laws
+    ///   asperity laws exponential
+    ///   asperity laws --law lennard-jones --work-of-adhesion 50mJ/m2 --range 0.3nm --wall none \
+    ///     --plot law.png
+    Options {
+        "Output" {
+            /// The only law to list, in the place of --law
+            name: Option<String> =
+                Kind::word(|| LAWS.iter().map(|law| Word { name: law.name, help: "" }).collect(), &[])
+                    .positional(&["LAW"]).excludes(&["law"]),
+            /// File for a picture of the traction over the gap, .png, .svg or .pdf
+            plot: Option<PathBuf> = Kind::file(),
+            /// Replace a file that is there
+            force: bool = Kind::switch(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  asperity laws
-  asperity laws exponential
-  asperity laws --law lennard-jones --work-of-adhesion 50mJ/m2 --range 0.3nm --wall none \\
-    --plot law.png";
 
 /// The points of the curve, and how far it goes, in ranges of the law.
 const POINTS: u32 = 400;
 const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
-    let mut adhesion = options.adhesion.0.scene().adhesion;
-    if let Some(name) = &options.name {
-        adhesion.law = name.clone();
-    }
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let (Options { name, plot, force }, mut adhesion) = (scene.keys(), scene.given.scene().adhesion);
+    adhesion.law = name.unwrap_or(adhesion.law);
     in_options(adhesion.check_elastic("a law has none"))?;
-    let units = in_options(options.units.0.units(None, scene.is_si()))?;
+    let units = in_options(scene.given.units(None, scene.is_si()))?;
     let chosen = Law::named(&adhesion.law).filter(|_| adhesion.adheres());
-    let Some(path) = &options.plot else {
+    let Some(path) = &plot else {
         match chosen {
             Some(law) => list(law),
             None => LAWS.iter().skip(1).for_each(list),
@@ -77,11 +67,11 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         let name = chosen.name;
         return Err(format!("--law {name} has the range of a grid, so that there is no curve without one").into());
     }
-    let table = options.adhesion.0.files().law_table;
+    let table = scene.given.files().law_table;
     let tabulated = table.as_deref().map(table_of).transpose()?;
     let law = f64::law(adhesion.formula(tabulated.as_ref().map(|(law, _)| law))?);
     check_apart(path, table.as_deref())?;
-    let file = OutputFile::create(path, options.force)?;
+    let file = OutputFile::create(path, force)?;
     list(chosen);
     let Hints { range, rest, .. } = law.hints();
     // from where the repulsion is as large as some attractions
@@ -103,7 +93,7 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         curves: vec![(chosen.name, gaps.map(|gap| (gap, law.traction(gap))).collect())],
         ..Chart::default()
     };
-    let picture = chart.draw(options.size.paper())?;
+    let picture = chart.draw(scene.keys::<PaperOptions>().paper())?;
     file.complete(|path| picture.write(path))?;
     Ok(true)
 }

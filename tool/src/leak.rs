@@ -8,15 +8,14 @@ use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, write_npy};
 use asperity_plot::{Colouring, Map, Paper, Picture};
-use asperity_scene::{Boundary, Chosen, Inputs, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin, key};
-use clap::Args;
+use asperity_scene::{Boundary, Inputs, Kind, Leaked, Narrowest, Skin, key, keys};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use crate::Call;
+use crate::command::Call;
 use crate::heights::{self, check_room, converted, unread};
 use crate::outcome::Outcome;
-use crate::pictures::{PaperOptions, PictureFormat};
+use crate::pictures::{FormatKeys, PaperOptions};
 use crate::printing::{Printing, aligned, complain, in_options, name};
 use crate::quantity::LENGTH;
 use crate::report;
@@ -26,51 +25,37 @@ use crate::session;
 use crate::solved::{GAP, Solved, units_of};
 use crate::units::Units;
 
-/// Find out whether a gap is open from side to side, and how much leaks through it.
-///
-/// GAP is the folder of a solve, from which gap.npy, the side lengths and the boundary are read, or a file of gaps:
-/// open where they are positive, closed elsewhere. The flow obeys Reynolds' equation. Its transmissivity, the flow
-/// times the viscosity over the pressure, a length cubed, lies between two bounds: by any pressure, and by any
-/// conserved flow. The constriction along each axis is the narrowest place of the widest passage. Exits with 0 if the
-/// distance of the bounds is within --tolerance, 2 if not (they still hold), and 1 if the input is refused.
-#[derive(Args)]
-#[command(after_help = EXAMPLES, mut_args(results::of_files))]
-pub struct Options {
-    /// Folder of a solve, or a file of gaps, shape (Nx, Ny): .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, or a text
-    /// matrix. Gaps are distances of the surfaces; heights are refused because of their negative values
-    #[arg(value_name = "GAP")]
-    gap: PathBuf,
-    #[command(flatten)]
-    lengths: Chosen<LengthsKeys>,
-    #[command(flatten)]
-    leak: Chosen<LeakKeys>,
-
-    /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative to
-    /// the pressure drop), flow_x.npy (per width, over the pressure and times the viscosity, a length squared), and
-    /// flow_x.png with the widest passage
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    out: Option<PathBuf>,
-    /// Replace results that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    /// Format of the pictures
-    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
-    picture_format: PictureFormat,
-    #[command(flatten)]
-    size: PaperOptions,
-    #[command(flatten)]
-    printing: Printing,
+keys! {
+    /// Find out whether a gap is open from side to side, and how much leaks through it.
+    ///
+    /// GAP is the folder of a solve, from which gap.npy, the side lengths and the boundary are read, or a file of gaps:
+    /// open where they are positive, closed elsewhere. The flow obeys Reynolds' equation. Its transmissivity, the flow
+    /// times the viscosity over the pressure, a length cubed, lies between two bounds: by any pressure, and by any
+    /// conserved flow. The constriction along each axis is the narrowest place of the widest passage. Exits with 0 if the
+    /// distance of the bounds is within --tolerance, 2 if not (they still hold), and 1 if the input is refused.
+    ///
+    /// # Examples
+    ///   Through the gap of a solve, and with water:
+    ///     asperity solve --heights heights.npy --lengths 1mm --modulus 1GPa --mean-pressure 30MPa \
+    ///         --out pressed
+    ///     asperity leak pressed
+    ///     asperity leak pressed --viscosity 1mPas --out leakage
+    ///   Through a gap from elsewhere, from side to side:
+    ///     asperity leak gap.npy --lengths 2 1 --boundary free
+    Options {
+        "Output" {
+            /// Folder of a solve, or a file of gaps, shape (Nx, Ny): .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, or a text
+            /// matrix. Gaps are distances of the surfaces; heights are refused because of their negative values
+            gap: PathBuf = Kind::file().positional(&["GAP"]).required(),
+            /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative
+            /// to the pressure drop), flow_x.npy (per width, over the pressure and times the viscosity, a length squared),
+            /// and flow_x.png with the widest passage
+            out: Option<PathBuf> = Kind::folder(),
+            /// Replace results that are there
+            force: bool = Kind::switch(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  Through the gap of a solve, and with water:
-    asperity solve --heights heights.npy --lengths 1mm --modulus 1GPa --mean-pressure 30MPa \\
-        --out pressed
-    asperity leak pressed
-    asperity leak pressed --viscosity 1mPas --out leakage
-  Through a gap from elsewhere, from side to side:
-    asperity leak gap.npy --lengths 2 1 --boundary free";
 
 /// The fields along each axis, and the pictures.
 const FIELDS: [[&str; 2]; 2] = [["pressure_x.npy", "flow_x.npy"], ["pressure_y.npy", "flow_y.npy"]];
@@ -80,16 +65,16 @@ const PICTURES: [&str; 2] = ["flow_x", "flow_y"];
 const DECADES: (f64, f64) = (-3.0, 1.5);
 
 /// Runs the command; whether the bounds are as close as the tolerance.
-pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
-    let &Options { ref gap, ref out, force, printing, .. } = options;
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let (Options { gap, out, force }, printing) = (scene.keys(), scene.keys::<Printing>());
     let files = || results::files(FIELDS.as_flattened(), &PICTURES);
     let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
-    let read = || if gap.is_dir() { Solved::files(gap, &[GAP]) } else { vec![gap.clone()] };
-    results.iter().try_for_each(|results| results.check(read()))?;
-    let (map, boundary) = options.read(scene)?;
+    let files_read = || if gap.is_dir() { Solved::files(&gap, &[GAP]) } else { vec![gap.clone()] };
+    results.iter().try_for_each(|results| results.check(files_read()))?;
+    let (map, boundary) = read(&gap, scene)?;
     check_room(map.heights.dim())?;
     let grid = Grid::new(map.heights.dim(), map.lengths.unwrap_or((1.0, 1.0)))?;
-    let asked = options.leak.0.leak(boundary);
+    let asked = scene.given.leak(boundary);
     let start = Instant::now();
     let values = map.heights.view();
     let found = if gap.is_dir() { Gap::of_solution(values, grid) } else { Gap::new(values, grid) };
@@ -103,14 +88,14 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
             "lengths": grid.lengths(),
             "length_unit": units.length,
             "max_iterations": asked.settings.max_iterations,
-            "given": scene.given(),
+            "given": scene.quantities(),
             "seconds": seconds,
             "version": env!("CARGO_PKG_VERSION"),
         });
         report::report("leak", json!(leaked), &inputs)
     };
-    let write = |results: &Results<'_>| options.write(results, (&leak, &map.heights, grid), &units, &report());
-    let told = results.as_ref().map(write).transpose()?;
+    let written = |results: &Results<'_>| write(results, (&leak, &map.heights, grid), &units, &report());
+    let told = results.as_ref().map(written).transpose()?;
     printing.say(&aligned(&leaked.rows(&units)));
     told.iter().for_each(|told| printing.say(told));
     printing.report(report);
@@ -120,58 +105,57 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     Ok(leaked.reached)
 }
 
-impl Options {
-    /// The gap, with the side lengths as far as they are known, and what is beyond it.
-    fn read(&self, scene: &SceneFile) -> Outcome<(Topography, Boundary)> {
-        let (path, si) = (&self.gap, scene.is_si());
-        if path.is_dir() {
-            let solved = Solved::read(path)?;
-            let (map, boundary) = (solved.map(GAP)?, solved.boundary());
-            if self.lengths.0.first().is_some() {
-                return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
-            }
-            let given = scene.given().filter(|_| map.unit.is_none());
-            if let Some((key, value)) = given.as_ref().and_then(|given| given.as_object()?.iter().next()) {
-                let (folder, value) = (name(path), value.as_str().unwrap_or_default());
-                return in_options(Err(format!(
-                    "{folder}: was solved without units, but {{{key}}} is {value}: give a number in the units of the solve"
-                )));
-            }
-            return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
+/// The gap, with the side lengths as far as they are known, and what is beyond it.
+fn read(path: &Path, scene: &SceneFile) -> Outcome<(Topography, Boundary)> {
+    let si = scene.is_si();
+    if path.is_dir() {
+        let solved = Solved::read(path)?;
+        let (map, boundary) = (solved.map(GAP)?, solved.boundary());
+        if scene.given.has("lengths") {
+            return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
         }
-        let map = heights::map(path, &self.lengths.0, si)?;
-        session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
-        Ok((map, Boundary::Periodic))
+        let given = scene.quantities().filter(|_| map.unit.is_none());
+        if let Some((key, value)) = given.as_ref().and_then(|given| given.as_object()?.iter().next()) {
+            let (folder, value) = (name(path), value.as_str().unwrap_or_default());
+            return in_options(Err(format!(
+                "{folder}: was solved without units, but {{{key}}} is {value}: give a number in the units of the solve"
+            )));
+        }
+        return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
     }
+    let map = heights::map(path, &scene.given, si)?;
+    session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
+    Ok((map, Boundary::Periodic))
+}
 
-    /// Writes all files, and tells their names.
-    fn write(
-        &self,
-        results: &Results<'_>,
-        (leak, gap, grid): (&Leak, &Array2<f64>, Grid),
-        units: &Units,
-        report: &Value,
-    ) -> Outcome<String> {
-        let mut names = [REPORT, scene::NAME].map(str::to_owned).to_vec();
-        results.write(results.folder()?, |folder| {
-            write_report(folder, report)?;
-            for axis in Axis::BOTH.into_iter().filter(|axis| leak.percolation.along(*axis).is_some()) {
-                let flow = leak.along(axis);
-                let [pressure_name, flow_name] = FIELDS[axis as usize];
-                let speed = speed(flow);
-                write_npy(folder.path(pressure_name), &flow.pressure)?;
-                write_npy(folder.path(flow_name), &speed)?;
-                let picture_name = self.picture_format.file(PICTURES[axis as usize]);
-                let found = leak.percolation.along(axis);
-                let passage = (found.map(Narrowest::of), found.map_or(&[][..], |found| &found.path));
-                let picture = drawn(axis, (gap, &speed), passage, grid, units, self.size.paper())?;
-                picture.write(folder.path(&picture_name))?;
-                names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);
-            }
-            Ok(())
-        })?;
-        Ok(results.told(&names))
-    }
+/// Writes all files, and tells their names.
+fn write(
+    results: &Results<'_>,
+    (leak, gap, grid): (&Leak, &Array2<f64>, Grid),
+    units: &Units,
+    report: &Value,
+) -> Outcome<String> {
+    let FormatKeys { picture_format } = results.scene.keys();
+    let paper = results.scene.keys::<PaperOptions>().paper();
+    let mut names = [REPORT, scene::NAME].map(str::to_owned).to_vec();
+    results.write(results.folder()?, |folder| {
+        write_report(folder, report)?;
+        for axis in Axis::BOTH.into_iter().filter(|axis| leak.percolation.along(*axis).is_some()) {
+            let flow = leak.along(axis);
+            let [pressure_name, flow_name] = FIELDS[axis as usize];
+            let speed = speed(flow);
+            write_npy(folder.path(pressure_name), &flow.pressure)?;
+            write_npy(folder.path(flow_name), &speed)?;
+            let picture_name = picture_format.file(PICTURES[axis as usize]);
+            let found = leak.percolation.along(axis);
+            let passage = (found.map(Narrowest::of), found.map_or(&[][..], |found| &found.path));
+            let picture = drawn(axis, (gap, &speed), passage, grid, units, paper)?;
+            picture.write(folder.path(&picture_name))?;
+            names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);
+        }
+        Ok(())
+    })?;
+    Ok(results.told(&names))
 }
 
 /// The flow at the nodes, per width.

@@ -5,7 +5,7 @@
 //! files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity
 //! laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these
 //! by a scene file, which every run leaves next to its results, and `asperity report` puts the results on a page for a
-//! browser.
+//! browser. (`command.rs` has what a command is.)
 
 // the report of a solve has more keys than serde_json's macro expands otherwise
 #![recursion_limit = "256"]
@@ -33,6 +33,7 @@ mod sweep;
 // the parts that make commands
 mod adhesion;
 mod citation;
+mod command;
 mod entries;
 mod heights;
 mod hints;
@@ -55,123 +56,124 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use asperity_scene::{
-    allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, units, warnings,
+    AccuracyKeys, AdhesionKeys, ConductorKeys, CutOffKeys, CycleAccuracyKeys, FindingsKeys, FormKeys, FourierKeys,
+    FractionsKeys, GridKeys, Keys, LeakKeys, LeakageKeys, LengthsKeys, Load, LoadKeys, LoadsKeys, NestedKeys,
+    NewLengthsKeys, PathKeys, PercolationKeys, PullOffKeys, RoughnessKeys, Skin, SolverKeys, StepKeys, StiffnessKeys,
+    SurfaceKeys, UnitKeys, allowed, chosen, csv, journal, keys, list as loads, numbers, outcome, output, processes,
+    quantity, synonyms, units, warnings,
 };
-use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::ArgMatches;
+use clap::error::ErrorKind;
 use serde_json::Value;
 
+use crate::command::{Call, Command, Place, help};
 use crate::hints::hinted;
 use crate::options::ProblemOptions;
 use crate::outcome::Outcome;
-use crate::pictures::MapColours;
-use crate::printing::{check_printed, complain, on_one_line, printed};
+use crate::pictures::{FormatKeys, MapColours, PaperOptions, PlotKeys};
+use crate::printing::{Printing, check_printed, complain, on_one_line, printed};
 use crate::processes::{Processes, is_elsewhere};
 use crate::scene::SceneFile;
 use crate::session::Strictness;
+use crate::table::ForceKeys;
 
-/// Compute how rough surfaces touch and stick.
-///
-/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, with or without adhesion,
-/// and says how accurate they are. The contact is normal and frictionless, in a periodic cell or with a free boundary.
-/// The method is an FFT-based boundary element method.
-#[derive(Parser)]
-#[command(name = "asperity", version, after_help = EXAMPLES, max_term_width = 100)]
-struct Tool {
-    #[command(subcommand)]
-    command: Command,
+keys! {
+    /// Compute how rough surfaces touch and stick.
+    ///
+    /// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, with or without adhesion,
+    /// and says how accurate they are. The contact is normal and frictionless, in a periodic cell or with a free boundary.
+    /// The method is an FFT-based boundary element method.
+    ///
+    /// # Examples
+    ///   asperity demo
+    ///   asperity surface --size 512 --rms-slope 0.1 --out heights.npy
+    ///   asperity stats heights.npy
+    ///   asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
+    ///   asperity solve --heights heights.npy --mean-pressure 0.01 --out results
+    ///   asperity report results
+    ///   asperity run results/scene.toml --mean-pressure 0.02 --out more
+    ///   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
+    ///   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \
+    ///     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+    ///   asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
+    ///   asperity contact results --out contact
+    ///   asperity leak results
+    ///   asperity interface --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --for abaqus \
+    ///     --out law.csv
+    ///   asperity study study.toml --jobs 4
+    ///   asperity laws
+    ///   asperity selftest
+    ///   asperity solve --help
+    Tool {}
 }
 
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  asperity demo
-  asperity surface --size 512 --rms-slope 0.1 --out heights.npy
-  asperity stats heights.npy
-  asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
-  asperity solve --heights heights.npy --mean-pressure 0.01 --out results
-  asperity report results
-  asperity run results/scene.toml --mean-pressure 0.02 --out more
-  asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
-  asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
-    --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
-  asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
-  asperity contact results --out contact
-  asperity leak results
-  asperity interface --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --for abaqus \\
-    --out law.csv
-  asperity study study.toml --jobs 4
-  asperity laws
-  asperity selftest
-  asperity solve --help";
-
-/// What a command may be part of.
-#[derive(Clone, Copy, PartialEq)]
-enum Place {
-    /// A run of several processes
-    Processes,
-    /// A scene
-    Scene,
-    /// A study, as its cases
-    Study,
-}
-
+/// A table of commands: the module of each and its name, what it may be part of, the lists of its options in the order of
+/// the help, and what else differs.
 macro_rules! commands {
-    ($($name:literal $variant:ident $module:ident: [$($place:ident),*],)+) => {
-        #[derive(Subcommand)]
-        enum Command {
-            $(#[command(name = $name)] $variant(Box<$module::Options>),)+
-        }
-
-        impl Command {
-            fn name(&self) -> &'static str {
-                match self {
-                    $(Self::$variant(_) => $name,)+
-                }
+    ($($module:ident $name:literal [$($place:ident)*]: $($list:path),+ $(; $field:ident: $value:expr)*;;)+) => {
+        /// The commands.
+        static COMMANDS: &[Command] = &[$(Command {
+            $($field: $value,)*
+            ..Command {
+                name: $name,
+                help: <$module::Options as Keys>::ABOUT,
+                lists: &[$(<$list as Keys>::KEYS),+],
+                places: &[$(Place::$place),*],
+                run: $module::run,
+                problem: ProblemOptions::of,
+                one_of: Vec::new,
+                has_folder: false,
             }
-
-            fn run(&self, call: &Call<'_>) -> Outcome<bool> {
-                match self {
-                    $(Self::$variant(options) => $module::run(options, call),)+
-                }
-            }
-        }
-
-        /// The commands, with what they may be part of.
-        const COMMANDS: &[(&str, &[Place])] = &[$(($name, &[$(Place::$place),*]),)+];
+        }),+];
     };
 }
 
-// the name of each command, the module that has its options and runs it, and what it may be part of
 commands! {
-    "demo" Demo demo: [Scene],
-    "solve" Solve solve: [Processes, Scene, Study],
-    "sweep" Sweep sweep: [Processes, Scene, Study],
-    "cycle" Cycle cycle: [Processes, Scene, Study],
-    "pull-off" PullOff pull_off: [Scene, Study],
-    "study" Study study: [],
-    "run" Run run: [],
-    "report" Report page: [],
-    "prepare" Prepare prepare: [Scene],
-    "surface" Surface surface: [Scene],
-    "stats" Stats stats: [Scene],
-    "leak" Leak leak: [Scene],
-    "interface" Interface interface: [Processes, Scene],
-    "contact" Contact contact: [Scene],
-    "laws" Laws laws: [],
-    "selftest" Selftest selftest: [],
-    "completions" Completions completions: [],
+    demo "demo" [Scene]: demo::Options, FormatKeys, PaperOptions, Printing;;
+    solve "solve" [Processes Scene Study]: SurfaceKeys, LoadKeys, AdhesionKeys, SolverKeys, NestedKeys, AccuracyKeys,
+        solve::Options, FindingsKeys, ConductorKeys, PercolationKeys, LeakageKeys, Strictness, Printing, FormatKeys,
+        PaperOptions, MapColours, UnitKeys; one_of: || Load::one().collect(); has_folder: true;;
+    sweep "sweep" [Processes Scene Study]: SurfaceKeys, LoadsKeys, FractionsKeys, AdhesionKeys, SolverKeys,
+        sweep::Options, PlotKeys, PaperOptions, UnitKeys, StiffnessKeys, ConductorKeys, LeakageKeys, ForceKeys,
+        Strictness, Printing; one_of: || Load::many().chain(FractionsKeys::KEYS.iter().map(|key| key.name)).collect();;
+    cycle "cycle" [Processes Scene Study]: SurfaceKeys, LoadsKeys, PathKeys, AdhesionKeys, SolverKeys,
+        CycleAccuracyKeys, cycle::Options, PaperOptions, UnitKeys, ForceKeys, Strictness, Printing;
+        one_of: || Load::many().collect();;
+    pull_off "pull-off" [Scene Study]: SurfaceKeys, PullOffKeys, AdhesionKeys, SolverKeys, UnitKeys,
+        pull_off::Options, Strictness, Printing; problem: pull_off::problem;;
+    study "study" []: study::Options, PlotKeys, PaperOptions, Printing;;
+    run "run" []: run::Options;;
+    page "report" []: page::Options, MapColours;;
+    prepare "prepare" [Scene]: prepare::Options, NewLengthsKeys, StepKeys, CutOffKeys, Printing;;
+    surface "surface" [Scene]: GridKeys, FormKeys, RoughnessKeys, FourierKeys, surface::Options, Printing;
+        one_of: || vec!["size", "shape"];;
+    stats "stats" [Scene]: LengthsKeys, stats::Options, Printing;;
+    leak "leak" [Scene]: LengthsKeys, LeakKeys, leak::Options, FormatKeys, PaperOptions, Printing; has_folder: true;;
+    interface "interface" [Processes Scene]: SurfaceKeys, LoadsKeys, AdhesionKeys, SolverKeys, interface::Options,
+        ConductorKeys, LeakageKeys, UnitKeys, ForceKeys, Strictness, Printing; one_of: || Load::many().collect();;
+    contact "contact" [Scene]: contact::Options, FormatKeys, PaperOptions, Printing; has_folder: true;;
+    laws "laws" []: AdhesionKeys, laws::Options, PaperOptions, UnitKeys;;
+    selftest "selftest" []: Printing;;
+    completions "completions" []: completions::Options;;
+}
+
+/// The command of a name.
+fn named(name: &str) -> Outcome<&'static Command> {
+    Ok(COMMANDS.iter().find(|command| command.name == name).ok_or_else(|| format!("{name} is not built in"))?)
 }
 
 /// The names of the commands that may be part of something.
-fn commands(place: Place) -> Vec<&'static str> {
-    COMMANDS.iter().filter(|(_, places)| places.contains(&place)).map(|(name, _)| *name).collect()
+fn part_of(place: Place) -> Vec<&'static str> {
+    COMMANDS.iter().filter(|command| command.places.contains(&place)).map(|command| command.name).collect()
 }
 
-/// The call of a command: the scene that repeats it, and the processes that run it.
-#[derive(Clone, Copy)]
-struct Call<'a> {
-    scene: &'a SceneFile,
-    processes: &'a Processes,
+/// The parser of the program.
+fn parser() -> clap::Command {
+    let parser = clap::Command::new("asperity").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
+    let parser = help(parser, Tool::ABOUT).subcommand_required(true).arg_required_else_help(true);
+    let mut parser = parser.subcommands(COMMANDS.iter().map(Command::parser)).mut_subcommand("run", run::with_options);
+    parser.build();
+    parser
 }
 
 const CONVERGED: u8 = 0;
@@ -190,65 +192,45 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             }
             #[cfg(unix)]
             interruption::listen();
-            let mut tool = Tool::command();
-            tool.build();
-            run_on(&mut tool, &processes, arguments)
+            match called(arguments.into_iter().collect()) {
+                Ok(scene) => agreed(&processes, execute(&scene, &processes)),
+                Err(error) => match error.downcast() {
+                    Ok(mistake) => usage(&mistake, &processes),
+                    Err(error) => agreed(&processes, Err(error)),
+                },
+            }
         }
         Err(error) => refused(&*error),
     }
 }
 
-fn run_on(tool: &mut clap::Command, processes: &Processes, arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    match parsed(tool, arguments) {
-        Ok((Command::Run(options), _)) => match run::Arguments::read(tool, *options) {
-            Ok(read) => match parsed(tool, read.arguments.clone()) {
-                Ok((command, scene)) => execute(&command, &scene, processes),
-                Err(error) => usage(&error, processes, |argument| read.blamed(argument)),
-            },
-            Err(error) => agreed(processes, Err(error)),
-        },
-        Ok((command, scene)) => execute(&command, &scene, processes),
-        Err(error) => usage(&error, processes, |_| None),
+/// The scene that the arguments of the program give.
+fn called(arguments: Vec<OsString>) -> Outcome<SceneFile> {
+    let tool = &mut parser();
+    let (command, matches) = parsed(tool, &arguments)?;
+    if command.name == "run" {
+        return run::scene(tool, command, &matches);
     }
+    let given = chosen(command.keys(), &matches).complete(command.keys());
+    command.check(&given, tool.find_subcommand(command.name).unwrap_or(tool))?;
+    let units = given.quantities().check(Skin::Options);
+    units.map_err(|reason| tool.error(ErrorKind::ValueValidation, reason))?;
+    Ok(SceneFile { command: command.name, given })
 }
 
-/// The command that the arguments name, and the scene that repeats it.
-fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, SceneFile), clap::Error>
-where
-    I: IntoIterator<Item: Into<OsString>>,
-{
-    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
-    let matches = tool.try_get_matches_from_mut(&arguments).map_err(|error| hinted(tool, &arguments, error))?;
-    let command = Tool::from_arg_matches(&matches)?.command;
-    let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
-    let scene = chosen.map_or_else(SceneFile::default, |(command, matches)| SceneFile::of(command, matches));
-    match scene.check_units() {
-        Ok(()) => Ok((command, scene)),
-        Err(reason) => Err(tool.error(ErrorKind::ValueValidation, reason)),
-    }
+/// The command that arguments name, and what they give for its options.
+fn parsed(tool: &mut clap::Command, arguments: &[OsString]) -> Outcome<(&'static Command, ArgMatches)> {
+    let found = tool.try_get_matches_from_mut(arguments).map_err(|error| hinted(tool, arguments, error))?;
+    let (name, matches) = found.subcommand().ok_or("there is no command")?;
+    Ok((named(name)?, matches.clone()))
 }
 
-impl Command {
-    /// The problem of a case of a study that is a run of this command, and whether its warnings are errors.
-    fn problem(&self) -> Outcome<(ProblemOptions, Strictness)> {
-        match self {
-            Self::Solve(options) => Ok((options.problem()?, options.strictness)),
-            Self::Sweep(options) => Ok((options.problem()?, options.manner.strictness)),
-            Self::Cycle(options) => Ok((options.problem()?, options.manner.strictness)),
-            Self::PullOff(options) => Ok((options.problem()?, options.strictness)),
-            _ => Err("the command has no cases".into()),
-        }
+fn execute(scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+    let command = named(scene.command)?;
+    if !command.places.contains(&Place::Processes) {
+        processes.alone(&format!("every command but {}", part_of(Place::Processes).join(", ")))?;
     }
-}
-
-fn execute(command: &Command, scene: &SceneFile, processes: &Processes) -> u8 {
-    let shared = commands(Place::Processes);
-    if !shared.contains(&command.name())
-        && let Err(error) = processes.alone(&format!("every command but {}", shared.join(", ")))
-    {
-        return agreed(processes, Err(error));
-    }
-    agreed(processes, command.run(&Call { scene, processes }))
+    (command.run)(&Call { scene, processes })
 }
 
 /// The exit code of an outcome; one process tells of an error.
@@ -265,7 +247,7 @@ fn agreed(processes: &Processes, converged: Outcome<bool>) -> u8 {
 /// # Errors
 /// Errors of the command, in words.
 pub fn page(results: &Path, out: &Path, force: bool) -> Result<(), String> {
-    let written = page::write(results, Some(out), force, &MapColours::default());
+    let written = page::write(results, Some(out), force, &MapColours::default(), false);
     written.map(|_| ()).map_err(|error| error.to_string())
 }
 
@@ -281,9 +263,8 @@ fn refused(error: &(dyn Error + 'static)) -> u8 {
     REFUSED
 }
 
-/// Prints help where it was asked for, and otherwise the mistake in the arguments on one line, after the name of the
-/// file that has the argument (`blamed`).
-fn usage(error: &clap::Error, processes: &Processes, blamed: impl Fn(&str) -> Option<String>) -> u8 {
+/// Prints help where it was asked for, and otherwise the mistake in the arguments on one line.
+fn usage(error: &clap::Error, processes: &Processes) -> u8 {
     let help = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if !processes.is_first() {
         return if help { CONVERGED } else { REFUSED };
@@ -295,14 +276,8 @@ fn usage(error: &clap::Error, processes: &Processes, blamed: impl Fn(&str) -> Op
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = error.print();
-            return REFUSED;
         }
-        _ => {}
+        _ => complain("error", &format!("{}; see --help", on_one_line(error))),
     }
-    let argument = match error.get(ContextKind::InvalidArg) {
-        Some(ContextValue::String(argument)) => argument.as_str(),
-        _ => "",
-    };
-    complain("error", &format!("{}{}; see --help", blamed(argument).unwrap_or_default(), on_one_line(error)));
     REFUSED
 }

@@ -12,7 +12,6 @@ use crate::adhesion::table_of;
 use crate::heights::{named, rows_of, shared};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
-use crate::scene::SceneFile;
 use crate::threads;
 
 /// The case that options choose, and its files.
@@ -31,20 +30,19 @@ pub struct Problem {
 }
 
 impl ProblemOptions {
-    /// The problem of several lists of keys; refuses a law, a wall and a body without their parameters.
-    pub fn of<'a>(parts: impl IntoIterator<Item = &'a Given>) -> Outcome<Self> {
-        let given = Given::all(parts);
-        let (files, quantities) = (given.files(), given.quantities());
-        Ok(Self { case: Case::of(given, quantities, Objects::default(), Skin::Options)?, files })
+    /// The problem of what is given; refuses a law, a wall and a body without their parameters.
+    pub fn of(given: &Given) -> Outcome<Self> {
+        let case = Case::of(given.clone(), given.quantities(), Objects::default(), Skin::Options)?;
+        Ok(Self { case, files: given.files() })
     }
 
-    /// Reads the files, of fields the rows that this process holds, for a command with a scene, and starts the threads.
-    pub fn read(&self, scene: &SceneFile, processes: &Processes) -> Outcome<Problem> {
-        self.with(None, scene, processes)
+    /// Reads the files, of fields the rows that this process holds, and starts the threads.
+    pub fn read(&self, processes: &Processes) -> Outcome<Problem> {
+        self.with(None, processes)
     }
 
     /// The same with heights that were `made`, if they were, instead of the heights of the file.
-    pub fn with(&self, made: Option<Topography>, scene: &SceneFile, processes: &Processes) -> Outcome<Problem> {
+    pub fn with(&self, made: Option<Topography>, processes: &Processes) -> Outcome<Problem> {
         let Self { case, files } = self;
         let read = || {
             let path = &files.heights;
@@ -64,7 +62,6 @@ impl ProblemOptions {
             Ok((maps, table, works))
         };
         let (maps, table, works) = processes.agree(read())?;
-        let case = case.among(scene.quantities());
         Ok(Problem { posed: case.on(maps, threads::count(), processes)?, table, works })
     }
 

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::{LOOK, QUANTITY, ZOOM, escaped};
-use clap::Args;
+use asperity_scene::{Kind, keys};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::Call;
 use crate::citation::{PAPER, PROGRAM};
 use crate::columns::spaced;
+use crate::command::Call;
 use crate::journal::state_path;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, with_suffix, write_text};
@@ -31,48 +31,46 @@ mod of_table;
 
 pub use of_table::draw_loads;
 
-/// Put the results of a run on one page for a browser.
-///
-/// RESULTS is the folder of a solve, a pull-off, a leakage or a contact, or the table of a sweep, a cycle, an interface
-/// or a study. The page shows the numbers, the warnings, maps that can be zoomed, curves, the scene that repeats the run,
-/// and how to cite. It is one file, which loads nothing from elsewhere, to send to a colleague or to keep with the data.
-/// Maps and curves are drawn from the files in the folder, for a solve from gap.npy, pressure.npy and
-/// contact_pressure.npy.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    /// Folder of results, or table of a sweep, a cycle, an interface or a study
-    #[arg(value_name = "RESULTS")]
-    results: PathBuf,
-    /// File for the page [default: report.html in the folder, or FILE.html next to the table]
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    out: Option<PathBuf>,
-    /// Replace a page that is there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    #[command(flatten)]
-    colours: MapColours,
+keys! {
+    /// Put the results of a run on one page for a browser.
+    ///
+    /// RESULTS is the folder of a solve, a pull-off, a leakage or a contact, or the table of a sweep, a cycle, an interface
+    /// or a study. The page shows the numbers, the warnings, maps that can be zoomed, curves, the scene that repeats the run,
+    /// and how to cite. It is one file, which loads nothing from elsewhere, to send to a colleague or to keep with the data.
+    /// Maps and curves are drawn from the files in the folder, for a solve from gap.npy, pressure.npy and
+    /// contact_pressure.npy.
+    ///
+    /// # Examples
+    ///     asperity solve --heights heights.npy --mean-gap 0.04 --out results
+    ///     asperity report results
+    ///     asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
+    ///     asperity report sweep.csv
+    Options {
+        "Output" {
+            /// Folder of results, or table of a sweep, a cycle, an interface or a study
+            results: PathBuf = Kind::file().positional(&["RESULTS"]).required(),
+            /// File for the page [default: report.html in the folder, or FILE.html next to the table]
+            out: Option<PathBuf> = Kind::file(),
+            /// Replace a page that is there
+            force: bool = Kind::switch(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-    asperity solve --heights heights.npy --mean-gap 0.04 --out results
-    asperity report results
-    asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
-    asperity report sweep.csv";
 
 /// The resolution of the charts.
 const FINE: f64 = 288.0;
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, _: &Call<'_>) -> Outcome<bool> {
-    let out = write(&options.results, options.out.as_deref(), options.force, &options.colours)?;
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let Options { results, out, force } = scene.keys();
+    let out = write(&results, out.as_deref(), force, &scene.keys(), scene.is_si())?;
     say(&format!("page in {}", name(&out)));
     Ok(true)
 }
 
-/// Writes the page of results into a file, or next to them; its path.
-pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColours) -> Outcome<PathBuf> {
+/// Writes the page of results into a file, or next to them, with colours that have limits in SI units or in no unit; its
+/// path.
+pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColours, is_si: bool) -> Outcome<PathBuf> {
     let folder = results.is_dir();
     colours.check()?;
     if !folder && (colours.limits().is_some() || colours.colour_clusters) {
@@ -87,7 +85,7 @@ pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColou
     };
     check_apart(&out, read.iter().map(PathBuf::as_path))?;
     let file = OutputFile::create(&out, force)?;
-    let page = if folder { of_solve::page(results, colours)? } else { of_table::page(results)? };
+    let page = if folder { of_solve::page(results, colours, is_si)? } else { of_table::page(results)? };
     file.complete(|path| write_text(path, &page))?;
     Ok(out)
 }

@@ -1,70 +1,72 @@
 //! The pictures that commands draw: maps of contact and pressure, and charts of tables.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use asperity::contact::Clusters;
 use asperity::{Grid, Real, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Paper, Picture, Style};
 use asperity_scene::legs::{abscissa, legs, logarithmic, value};
 use asperity_scene::theories::{Curve, Theories};
-use asperity_scene::{Account, key};
-use clap::{Args, ValueEnum};
+use asperity_scene::{Account, Kind, choice, key, keys};
 use ndarray::{Array2, ArrayView2};
 use serde_json::Value;
 
 use crate::allowed::Range;
-use crate::allowed::resolution;
 use crate::columns::Columns;
 use crate::numbers::{percent, plain};
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free};
 use crate::quantity::{LENGTH, PRESSURE, Quantity};
+use crate::scene::SceneFile;
 use crate::units::Units;
 
-/// The format of pictures with names that the tool chooses.
-#[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
-pub enum PictureFormat {
-    /// Pixels
-    #[default]
-    Png,
-    /// Vectors for web pages and drawing programs, with the maps as images in them
-    Svg,
-    /// Vectors for print, with the maps as images in them, and with the font
-    Pdf,
-}
-
-impl PictureFormat {
-    pub const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Pdf];
-
-    /// The file of a picture of this name.
-    pub fn file(self, name: &str) -> String {
-        let ending = match self {
-            Self::Png => "png",
-            Self::Svg => "svg",
-            Self::Pdf => "pdf",
-        };
-        format!("{name}.{ending}")
+choice! {
+    /// The format of pictures with names that the tool chooses.
+    PictureFormat {
+        /// Pixels
+        Png = "png",
+        /// Vectors for web pages and drawing programs, with the maps as images in them
+        Svg = "svg",
+        /// Vectors for print, with the maps as images in them, and with the font
+        Pdf = "pdf",
     }
 }
 
-/// The resolution and the width of pictures.
-#[derive(Args, Clone, Copy)]
-pub struct PaperOptions {
-    /// Pixels per inch of pictures, in .svg and .pdf of the maps in them; 300 to 600 for print
-    #[arg(long, value_name = "N", default_value_t = DPI, allow_hyphen_values = true, value_parser = resolution)]
-    #[arg(help_heading = "Output")]
-    dpi: f64,
-    /// Width of pictures, such as 85mm for a column of print; the text keeps its size [default: as the map needs]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = points, help_heading = "Output")]
-    width: Option<f64>,
+impl PictureFormat {
+    /// The file of a picture of this name.
+    pub fn file(self, name: &str) -> String {
+        format!("{name}.{self}")
+    }
+}
+
+keys! {
+    /// The format of pictures.
+    FormatKeys {
+        "Output" {
+            /// Format of the pictures
+            picture_format: PictureFormat = Kind::word(PictureFormat::words, &["FORMAT"]).or("png"),
+        }
+    }
+}
+
+keys! {
+    /// The resolution and the width of pictures.
+    PaperOptions {
+        "Output" {
+            /// Pixels per inch of pictures, in .svg and .pdf of the maps in them; 300 to 600 for print
+            dpi: Option<f64> = Kind::number(Range::RESOLUTION, &["N"]).or("144"),
+            /// Width of pictures, such as 85mm for a column of print; the text keeps its size [default: as the map needs]
+            width: Option<String> = Kind::text(|text| points(text).map(|_| ()), &["LENGTH"]),
+        }
+    }
 }
 
 impl PaperOptions {
     /// The paper of the pictures.
     pub fn paper(&self) -> Paper {
-        Paper { dpi: self.dpi, width: self.width }
+        Paper { dpi: self.dpi.unwrap_or(DPI), width: self.width.as_deref().and_then(|width| points(width).ok()) }
     }
 }
 
@@ -79,33 +81,29 @@ fn points(text: &str) -> Result<f64, String> {
     found.map(points).ok_or_else(|| "it must be a length with a unit, from 65mm to 2m, such as 85mm".to_owned())
 }
 
-/// The colours of the maps of contact and pressure.
-#[derive(Args, Clone, Default)]
-pub struct MapColours {
-    /// Pressures at the ends of the colour bar, for pictures that are to be compared; with adhesion the largest
-    /// tension, negative, and the largest compression [default: as far as most of the load is carried]
-    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
-    #[arg(value_parser = PRESSURE.within(Range::FINITE), help_heading = "Output")]
-    colour_limits: Option<Vec<Quantity>>,
-    /// Give each cluster of contact a colour of its own, nine in turn, the largest clusters first
-    #[arg(long, help_heading = "Output")]
-    pub colour_clusters: bool,
+keys! {
+    /// The colours of the maps of contact and pressure.
+    #[derive(Default)]
+    MapColours {
+        "Output" {
+            /// Pressures at the ends of the colour bar, for pictures that are to be compared; with adhesion the largest
+            /// tension, negative, and the largest compression [default: as far as most of the load is carried]
+            colour_limits: Vec<f64> = Kind::quantity(PRESSURE, Range::FINITE, &["LOW", "HIGH"]).each(),
+            /// Give each cluster of contact a colour of its own, nine in turn, the largest clusters first
+            colour_clusters: bool = Kind::switch(),
+        }
+    }
 }
 
 impl MapColours {
     /// The pressures at the ends of the colour bar, where they are given.
     pub fn limits(&self) -> Option<(f64, f64)> {
-        self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
+        if let [low, high] = self.colour_limits[..] { Some((low, high)) } else { None }
     }
 
     /// Whether the clusters of contact are drawn, with what is said of them: whether the sides of the map meet.
     pub fn clusters(&self, sides_meet: bool) -> Option<bool> {
         self.colour_clusters.then_some(sides_meet)
-    }
-
-    /// Whether the limits have a unit, and are in SI units.
-    pub fn has_unit(&self) -> bool {
-        self.colour_limits.iter().flatten().any(|limit| limit.has_unit)
     }
 
     /// Refuses limits that are no ends of a scale of pressures.
@@ -122,18 +120,29 @@ impl MapColours {
     }
 }
 
-/// The chart of a table.
-#[derive(Args)]
+keys! {
+    /// The chart of a table.
+    PlotKeys {
+        "Output" {
+            /// File for a chart of the loads: of the contact fraction over the pressure or force, or of the mean pressure
+            /// over the mean gap, or of the normal force over the approach; .png, .svg or .pdf
+            plot: Option<PathBuf> = Kind::file(),
+        }
+    }
+}
+
+/// The chart of a table, and its paper.
 pub struct PlotOptions {
-    /// File for a chart of the loads: of the contact fraction over the pressure or force, or of the mean pressure over
-    /// the mean gap, or of the normal force over the approach; .png, .svg or .pdf
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub plot: Option<std::path::PathBuf>,
-    #[command(flatten)]
-    size: PaperOptions,
+    plot: Option<PathBuf>,
+    paper: Paper,
 }
 
 impl PlotOptions {
+    /// The chart that a command is to draw.
+    pub fn of(scene: &SceneFile) -> Self {
+        Self { plot: scene.keys::<PlotKeys>().plot, paper: scene.keys::<PaperOptions>().paper() }
+    }
+
     /// Refuses a chart in no known format, or with a file that is there without the `table`, unless `force` replaces
     /// it.
     pub fn check(&self, table: &Path, force: bool) -> Outcome<()> {
@@ -143,7 +152,7 @@ impl PlotOptions {
     /// Draws the chart of all `rows`, if it is wanted, with theories, if there are some.
     pub fn draw(&self, rows: &[Value], units: &Units, theories: Option<&Theories>) -> Outcome<()> {
         let Some(plot) = &self.plot else { return Ok(()) };
-        write_picture(plot, &chart_of_loads(rows, units, theories, self.size.paper())?)
+        write_picture(plot, &chart_of_loads(rows, units, theories, self.paper)?)
     }
 }
 

@@ -5,83 +5,73 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_maps::Topography;
 use asperity_maps::io::{Reading, write_topography};
-use asperity_scene::{Chosen, CutOffKeys, Log, NewLengthsKeys, StepKeys};
-use clap::{ArgGroup, Args};
+use asperity_scene::{Kind, Log, keys};
 use serde_json::json;
 
-use crate::Call;
+use crate::command::Call;
 use crate::heights::{check_room, unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, aligned, in_options, name, say};
+use crate::scene::SceneFile;
 use crate::session;
 use crate::units::Units;
 
-/// Make a measured map into a surface that can be solved.
-///
-/// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
-/// periodic. Only the steps that you choose are done, and each prints a line. FILE.scene.toml next to the result
-/// repeats them. Whatever the order of the options, the order of the steps is --lengths, --missing, --scale, --unit,
-/// --crop, --flip, --align-rows, --remove-scars, --despike, --remove-form, --detrend, --fill, --window or --mirror,
-/// --cut-off-wavelength, --resample.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-#[command(group(ArgGroup::new("scan_lines").args(StepKeys::OF_LINES).multiple(true)))]
-pub struct Options {
-    /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), points x y z, or a text matrix
-    #[arg(value_name = "IN")]
-    input: PathBuf,
-
-    /// Channel of a .gwy file, or of a text file with several blocks, by its number or its title, if several have
-    /// heights
-    #[arg(long, value_name = "NAME")]
-    channel: Option<String>,
-    /// Number of lines to skip at the start of a text file, such as a heading
-    #[arg(long, value_name = "LINES", default_value_t = 0, hide_default_value = true)]
-    skip_lines: usize,
-    /// Word of a text file that stands for missing points, besides nan, NA, Bad, #N/A and the like; may be repeated
-    #[arg(long, value_name = "WORD")]
-    missing_word: Vec<String>,
-    /// Treat the points under the mask of a .gwy file as missing
-    #[arg(long)]
-    masked: bool,
-
-    #[command(flatten)]
-    steps: Chosen<(NewLengthsKeys, StepKeys, CutOffKeys)>,
-
-    /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights
-    /// alone)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    out: PathBuf,
-    /// Replace a file that is there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    #[command(flatten)]
-    printing: Printing,
+keys! {
+    /// Make a measured map into a surface that can be solved.
+    ///
+    /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
+    /// periodic. Only the steps that you choose are done, and each prints a line. FILE.scene.toml next to the result
+    /// repeats them. Whatever the order of the options, the order of the steps is --lengths, --missing, --scale, --unit,
+    /// --crop, --flip, --align-rows, --remove-scars, --despike, --remove-form, --detrend, --fill, --window or --mirror,
+    /// --cut-off-wavelength, --resample.
+    ///
+    /// # Examples
+    ///   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
+    ///     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
+    ///     asperity solve --heights surface.npz --modulus 1GPa --mean-pressure 1MPa --out results
+    ///   An AFM map with offsets between its lines, scars and spikes:
+    ///     asperity prepare afm.gwy --align-rows median --remove-scars --despike --detrend plane \
+    ///       --mirror --out scan.npz
+    ///   Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
+    ///     asperity prepare heights.txt --unit nm --lengths 5um 4um --detrend quadric --window 0.05 \
+    ///       --resample 1024 1024 --out fine.npz
+    Options {
+        "" {
+            /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), points x y z, or a text matrix
+            input: PathBuf = Kind::file().positional(&["IN"]).required(),
+            /// Channel of a .gwy file, or of a text file with several blocks, by its number or its title, if several have
+            /// heights
+            channel: Option<String> = Kind::text(|_| Ok(()), &["NAME"]),
+            /// Number of lines to skip at the start of a text file, such as a heading
+            skip_lines: Option<usize> = Kind::whole(&["LINES"]),
+            /// Word of a text file that stands for missing points, besides nan, NA, Bad, #N/A and the like; may be
+            /// repeated
+            missing_word: Vec<String> = Kind::text(|_| Ok(()), &["WORD"]).again(),
+            /// Treat the points under the mask of a .gwy file as missing
+            masked: bool = Kind::switch(),
+        }
+        "Output" {
+            /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights
+            /// alone)
+            out: PathBuf = Kind::file().required(),
+            /// Replace a file that is there
+            force: bool = Kind::switch(),
+        }
+    }
 }
 
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
-    asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
-    asperity solve --heights surface.npz --modulus 1GPa --mean-pressure 1MPa --out results
-  An AFM map with offsets between its lines, scars and spikes:
-    asperity prepare afm.gwy --align-rows median --remove-scars --despike --detrend plane \\
-      --mirror --out scan.npz
-  Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
-    asperity prepare heights.txt --unit nm --lengths 5um 4um --detrend quadric --window 0.05 \\
-      --resample 1024 1024 --out fine.npz";
-
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let (options, printing) = (&scene.keys::<Options>(), scene.keys::<Printing>());
     scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let mut log = Log::default();
-    let map = prepared(options, scene.is_si(), &mut log)?;
+    let map = prepared(options, scene, &mut log)?;
     file.write(|path| write_topography(path, &map))?;
     let scene_file = scene.written_beside(&options.out)?;
     scene_file.commit_after([file])?;
-    options.printing.report(|| {
+    printing.report(|| {
         json!({
             "command": "prepare",
             "input": options.input.to_string_lossy(),
@@ -95,7 +85,7 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
             "version": env!("CARGO_PKG_VERSION"),
         })
     });
-    if options.printing.for_people() {
+    if printing.for_people() {
         log.lines.push(("written", format!("{}{}", name(&options.out), left_out(&options.out, &map))));
         say(&aligned(&log.lines));
     }
@@ -112,16 +102,16 @@ fn left_out(out: &Path, map: &Topography) -> String {
 }
 
 /// Takes the steps, and prints the warnings.
-fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
+fn prepared(options: &Options, scene: &SceneFile, log: &mut Log) -> Outcome<Topography> {
     let reading = Reading {
         channel: options.channel.clone(),
-        skip_lines: options.skip_lines,
+        skip_lines: options.skip_lines.unwrap_or_default(),
         missing: options.missing_word.clone(),
         masked: options.masked,
     };
     let map = reading.read(&options.input)?;
     check_room(map.heights.dim())?;
-    let steps = in_options(options.steps.0.steps(map.heights.dim(), si, map.unit.as_deref()))?;
+    let steps = in_options(scene.given.steps(map.heights.dim(), scene.is_si(), map.unit.as_deref()))?;
     if steps.lengths.is_none() {
         session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
     }

@@ -6,21 +6,23 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::AutoStream;
-use asperity_scene::{Skin, worded};
-use clap::Args;
+use asperity_scene::{Kind, Skin, keys, worded};
 use serde_json::Value;
 
 use crate::outcome::Outcome;
 
-/// The form of standard output: a table, JSON or nothing.
-#[derive(Args, Clone, Copy)]
-pub struct Printing {
-    /// Print no table and no progress, only warnings
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
-    /// Print the report as one JSON document, and nothing else; the page reports of the documentation explains its keys
-    #[arg(long, help_heading = "Output")]
-    json: bool,
+keys! {
+    /// The form of standard output: a table, JSON or nothing.
+    #[derive(Copy)]
+    Printing {
+        "Output" {
+            /// Print no table and no progress, only warnings
+            quiet: bool = Kind::switch(),
+            /// Print the report as one JSON document, and nothing else; the page reports of the documentation explains
+            /// its keys
+            json: bool = Kind::switch(),
+        }
+    }
 }
 
 impl Printing {

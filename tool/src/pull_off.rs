@@ -4,13 +4,10 @@ use std::path::PathBuf;
 
 use asperity::Status;
 use asperity_maps::io::write_npy;
-use asperity_scene::{
-    AdhesionKeys, Chosen, Posed, Precision, PullOffKeys, Skin, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write,
-};
-use clap::Args;
+use asperity_scene::{Given, Kind, Posed, Precision, Skin, Solved, gap_to_write, keys};
 use serde_json::json;
 
-use crate::Call;
+use crate::command::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, aligned, complain, in_options};
@@ -18,124 +15,107 @@ use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
 use crate::results::{self, REPORT, Results, write_report};
-use crate::scene::{self, SceneFile};
+use crate::scene;
 use crate::session::{Strictness, say_new};
 use crate::solve::FIELDS;
 use crate::summary::warn;
 
-/// Find the pull-off, the greatest tension that surfaces bear.
-///
-/// Numbers may have units, all of them or none, as for asperity solve. The surfaces were pressed flat before, or to the
-/// preload. Then the tension grows until they come apart, and the pull-off lies between a tension that they bear and
-/// one that they do not. Under a tension many contacts may break at once; asperity cycle draws the surfaces apart
-/// instead, and shows each break. Prints the pull-off as a pressure over the area of the map and as a force, and with
-/// --json also all keys of the last state that holds. Exits with 0 if the pull-off was found, 2 if not, and 1 if the
-/// input is refused.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    #[command(flatten)]
-    problem: Chosen<(SurfaceKeys, PullOffKeys, AdhesionKeys, SolverKeys, UnitKeys)>,
-    /// Folder for report.json, scene.toml, and the fields of the last state that holds: gap.npy, pressure.npy and
-    /// contact_pressure.npy
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    out: Option<PathBuf>,
-    /// Replace results that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    #[command(flatten)]
-    pub strictness: Strictness,
-    #[command(flatten)]
-    printing: Printing,
+keys! {
+    /// Find the pull-off, the greatest tension that surfaces bear.
+    ///
+    /// Numbers may have units, all of them or none, as for asperity solve. The surfaces were pressed flat before, or to the
+    /// preload. Then the tension grows until they come apart, and the pull-off lies between a tension that they bear and
+    /// one that they do not. Under a tension many contacts may break at once; asperity cycle draws the surfaces apart
+    /// instead, and shows each break. Prints the pull-off as a pressure over the area of the map and as a force, and with
+    /// --json also all keys of the last state that holds. Exits with 0 if the pull-off was found, 2 if not, and 1 if the
+    /// input is refused.
+    ///
+    /// # Examples
+    ///   The tension that takes a map of 1 by 1 off, of surfaces that were pressed flat:
+    ///     asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
+    ///   Of surfaces that were pressed to a mean pressure before:
+    ///     asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 \
+    ///       --range 4e-3 --preload 0.01
+    ///   A tip on a free half-space:
+    ///     asperity pull-off --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \
+    ///       --range 4e-3
+    Options {
+        "Output" {
+            /// Folder for report.json, scene.toml, and the fields of the last state that holds: gap.npy, pressure.npy and
+            /// contact_pressure.npy
+            out: Option<PathBuf> = Kind::folder(),
+            /// Replace results that are there
+            force: bool = Kind::switch(),
+        }
+    }
 }
 
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  The tension that takes a map of 1 by 1 off, of surfaces that were pressed flat:
-    asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
-  Of surfaces that were pressed to a mean pressure before:
-    asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
-      --range 4e-3 --preload 0.01
-  A tip on a free half-space:
-    asperity pull-off --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \\
-      --range 4e-3";
+/// The problem of what is given; refuses a surface that yields.
+pub fn problem(given: &Given) -> Outcome<ProblemOptions> {
+    let problem = ProblemOptions::of(given)?;
+    problem.case.check_table()?;
+    problem.case.check_elastic(
+        "a surface that yields bears another tension after each load of the search: follow it by asperity cycle",
+    )?;
+    Ok(problem)
+}
 
 /// Runs the command; whether the pull-off was found.
-pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
-    let problem = &options.problem()?;
-    options.results(scene).map_or(Ok(()), |results| results.check(problem.files()))?;
-    let posed = problem.read(scene, processes)?.posed;
+pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
+    let problem = &problem(&scene.given)?;
+    let Options { out, force } = scene.keys();
+    let results = out.as_deref().map(|out| Results { out, scene, files: results::files(&FIELDS, &[]), force });
+    results.iter().try_for_each(|results| results.check(problem.files()))?;
+    let posed = problem.read(processes)?.posed;
     match problem.case.scene().precision {
-        Precision::F32 => options.find::<f32>(problem, posed, scene, processes),
-        Precision::F64 => options.find::<f64>(problem, posed, scene, processes),
+        Precision::F32 => find::<f32>(problem, posed, results, processes),
+        Precision::F64 => find::<f64>(problem, posed, results, processes),
     }
 }
 
-impl Options {
-    /// The problem; refuses a surface that yields.
-    pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let problem = ProblemOptions::of([&self.problem.0])?;
-        problem.case.check_table()?;
-        problem.case.check_elastic(
-            "a surface that yields bears another tension after each load of the search: follow it by asperity cycle",
-        )?;
-        Ok(problem)
-    }
+/// Finds the pull-off, and puts it into the folder of the results, if they are to be written.
+fn find<T: Scalar>(
+    problem: &ProblemOptions,
+    posed: Posed,
+    results: Option<Results<'_>>,
+    processes: &Processes,
+) -> Outcome<bool> {
+    let given = problem.case.given();
+    let (printing, nodes) = (given.keys::<Printing>(), posed.surface.grid().nodes());
+    let session = given.keys::<Strictness>().session::<T>(posed, processes)?;
+    let mut session = session.with_slopes()?.for_one_solve();
+    let start = problem.start(&mut session, processes)?;
+    say_new(&mut session.warnings);
+    let (asked, goal) = (given.pull_off(), in_options(given.goal())?);
+    let announcement = session.announce_pull_off(goal.is_some())?;
+    let (units, tolerance) = (session.units().clone(), session.tolerance(None)?);
+    let mut progress = Progress::new("", tolerance, nodes, printing.without_bars());
+    let found =
+        session.pull_off(asked, goal, start.map(T::field), &mut progress.on_tensions(&announcement, &units, printing));
+    drop(progress);
+    let (mut solved, pulled_off) = found?;
+    say_new(&mut session.warnings);
+    solved.look()?;
+    let Solved { found, account: last } = solved;
+    let mut outcome = json!(pulled_off);
+    outcome[report::LAST] = json!(last);
+    let report = report::report("pull-off", outcome, &session.inputs);
 
-    /// The folder of the results, if they are to be written.
-    fn results<'a>(&'a self, scene: &'a SceneFile) -> Option<Results<'a>> {
-        let files = || results::files(&FIELDS, &[]);
-        self.out.as_deref().map(|out| Results { out, scene, files: files(), force: self.force })
+    printing.say(&aligned(&pulled_off.rows(&last, session.units())));
+    if let Some(results) = results {
+        let held = &*found.part()?;
+        let fields = [&*gap_to_write(held), &held.pressure, &held.contact_pressure];
+        results.write(results.folder()?, |folder| {
+            write_report(folder, &report)?;
+            FIELDS.into_iter().zip(fields).try_for_each(|(name, field)| write_npy(folder.path(name), field))
+        })?;
+        let names = [REPORT, scene::NAME].into_iter().chain(FIELDS).map(str::to_owned);
+        printing.say(&results.told(&names.collect::<Vec<_>>()));
     }
-
-    fn find<T: Scalar>(
-        &self,
-        problem: &ProblemOptions,
-        posed: Posed,
-        scene: &SceneFile,
-        processes: &Processes,
-    ) -> Outcome<bool> {
-        let (printing, nodes) = (self.printing, posed.surface.grid().nodes());
-        let session = self.strictness.session::<T>(posed, processes)?;
-        let mut session = session.with_slopes()?.for_one_solve();
-        let start = problem.start(&mut session, processes)?;
-        say_new(&mut session.warnings);
-        let given = problem.case.given();
-        let (asked, goal) = (given.pull_off(), in_options(given.goal())?);
-        let announcement = session.announce_pull_off(goal.is_some())?;
-        let (units, tolerance) = (session.units().clone(), session.tolerance(None)?);
-        let mut progress = Progress::new("", tolerance, nodes, printing.without_bars());
-        let found = session.pull_off(
-            asked,
-            goal,
-            start.map(T::field),
-            &mut progress.on_tensions(&announcement, &units, printing),
-        );
-        drop(progress);
-        let (mut solved, pulled_off) = found?;
-        say_new(&mut session.warnings);
-        solved.look()?;
-        let Solved { found, account: last } = solved;
-        let mut outcome = json!(pulled_off);
-        outcome[report::LAST] = json!(last);
-        let report = report::report("pull-off", outcome, &session.inputs);
-
-        printing.say(&aligned(&pulled_off.rows(&last, session.units())));
-        if let Some(results) = self.results(scene) {
-            let held = &*found.part()?;
-            let fields = [&*gap_to_write(held), &held.pressure, &held.contact_pressure];
-            results.write(results.folder()?, |folder| {
-                write_report(folder, &report)?;
-                FIELDS.into_iter().zip(fields).try_for_each(|(name, field)| write_npy(folder.path(name), field))
-            })?;
-            let names = [REPORT, scene::NAME].into_iter().chain(FIELDS).map(str::to_owned);
-            printing.say(&results.told(&names.collect::<Vec<_>>()));
-        }
-        printing.report(|| report);
-        warn("", &last);
-        if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {
-            complain("warning", &text);
-        }
-        Ok(pulled_off.reached && last.status == Status::Converged)
+    printing.report(|| report);
+    warn("", &last);
+    if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {
+        complain("warning", &text);
     }
+    Ok(pulled_off.reached && last.status == Status::Converged)
 }

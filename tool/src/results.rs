@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use asperity_maps::io::OutputFolder;
 use asperity_plot::Picture;
 use asperity_scene::{Account, key};
-use clap::Arg;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -42,15 +41,12 @@ pub struct Results<'a> {
 
 /// The report, the scene, other files, the page of all, and pictures in any format.
 pub fn files(others: &[&str], pictures: &[&str]) -> Vec<String> {
-    let pictures = PictureFormat::ALL.into_iter().flat_map(|format| pictures.iter().map(move |name| format.file(name)));
+    let pictures = PictureFormat::ALL.iter().flat_map(|format| pictures.iter().map(move |name| format.file(name)));
     [REPORT, scene::NAME].iter().chain(others).chain([&PAGE]).map(|name| (*name).to_owned()).chain(pictures).collect()
 }
 
-/// An option of a command with no files but in its folder: options of these files need a folder.
-pub fn of_files(option: Arg) -> Arg {
-    let ids = ["format", "picture_format", "dpi", "width", "colour_limits", "colour_clusters"];
-    if ids.contains(&option.get_id().as_str()) { option.requires("out") } else { option }
-}
+/// The keys of files in a folder, which need the folder.
+pub const OF_FOLDER: [&str; 6] = ["format", "picture_format", "dpi", "width", "colour_limits", "colour_clusters"];
 
 impl Results<'_> {
     /// Refuses a folder that cannot have the files, or from which one of them is read.

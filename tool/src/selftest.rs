@@ -10,36 +10,31 @@ use asperity::{
     Amplitude, Control, Exponential, Grid, MaugisDugdale, NoAdhesion, Problem, Report, SelfAffine, Settings, Solution,
     Solver, Status, Surface, Westergaard,
 };
-use asperity_scene::Scalar;
-use clap::Args;
+use asperity_scene::{Scalar, keys};
 use ndarray::Array2;
 use serde::Serialize;
 use serde_json::json;
 
-use crate::Call;
+use crate::command::Call;
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::printing::{Printing, bold, complain, green, yellow};
 use crate::threads;
 
-/// Solve contacts with a known solution, and compare.
-///
-/// Checks in some seconds, without files, that this program agrees with theory on this machine: for the spheres of
-/// Hertz and of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32. A rough contact must also
-/// come out the same, bit for bit, on one thread and on all. Lengths are in periods of the surface, and pressures in
-/// contact moduli. The page self-test of the documentation explains the allowed differences. Exits with 0 if all checks
-/// hold, and 2 if one does not.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    #[command(flatten)]
-    printing: Printing,
+keys! {
+    /// Solve contacts with a known solution, and compare.
+    ///
+    /// Checks in some seconds, without files, that this program agrees with theory on this machine: for the spheres of
+    /// Hertz and of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32. A rough contact must also
+    /// come out the same, bit for bit, on one thread and on all. Lengths are in periods of the surface, and pressures in
+    /// contact moduli. The page self-test of the documentation explains the allowed differences. Exits with 0 if all checks
+    /// hold, and 2 if one does not.
+    ///
+    /// # Examples
+    ///   asperity selftest
+    ///   asperity selftest --json
+    Options {}
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  asperity selftest
-  asperity selftest --json";
 
 const NODES: usize = 256;
 /// The radius of the spheres.
@@ -72,8 +67,8 @@ impl Check {
 }
 
 /// Runs the command; whether all checks hold.
-pub fn run(options: &Options, _: &Call<'_>) -> Outcome<bool> {
-    let &Options { printing } = options;
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let printing: Printing = scene.keys();
     let start = Instant::now();
     let mut checks = known()?;
     checks.extend(rough()?);

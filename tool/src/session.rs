@@ -2,8 +2,7 @@
 
 use std::io::{self, IsTerminal};
 
-use asperity_scene::{Posed, Session, Told};
-use clap::Args;
+use asperity_scene::{Kind, Posed, Session, Told, keys};
 
 use crate::options::Scalar;
 use crate::outcome::Outcome;
@@ -14,12 +13,15 @@ use crate::warnings::Warnings;
 /// The code of the warning that rows have not converged, which precedes its message.
 pub const UNCONVERGED: &str = "unconverged";
 
-/// Whether warnings are errors.
-#[derive(Args, Clone, Copy, Default)]
-pub struct Strictness {
-    /// Treat warnings as errors: refuse input with a probable mistake, and write no solution with one
-    #[arg(long, help_heading = "Output")]
-    strict: bool,
+keys! {
+    /// Whether warnings are errors.
+    #[derive(Copy, Default)]
+    Strictness {
+        "Output" {
+            /// Treat warnings as errors: refuse input with a probable mistake, and write no solution with one
+            strict: bool = Kind::switch(),
+        }
+    }
 }
 
 /// Says the warnings that were not said before.

@@ -7,19 +7,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::Status;
-use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, Boundary, Chosen, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys, NestedKeys,
-    Part, PercolationKeys, Posed, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
-};
-use clap::{ArgGroup, Args, ValueEnum};
+use asperity_scene::{Boundary, Kind, Part, Posed, Precision, Solved, Word, choice, gap_to_write, keys, write_fields};
 use serde_json::json;
 
-use self::beside::{BESIDE, Beside};
-use crate::Call;
-use crate::allowed::bins;
+use self::beside::{BESIDE, fields_beside};
+use crate::command::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::pictures::{MapColours, PaperOptions, PictureFormat};
+use crate::pictures::{FormatKeys, MapColours};
 use crate::printing::{Printing, complain};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
@@ -28,85 +23,66 @@ use crate::scene;
 use crate::session::{Strictness, say_new};
 use crate::summary::{table, warn};
 
-/// Solve a contact problem under one load.
-///
-/// Either all numbers have units, such as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent
-/// units will do. With units all results are in SI units, and heights of a file that names no unit are in m. The folder
-/// gets gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
-/// part), and with a hardness plastic_depth.npy; --format chooses other files. It also gets report.json, contact.png
-/// and pressure.png (or .svg, .pdf), and scene.toml, which repeats the run. Either all files are written or none. Exits
-/// with 0 if converged, 2 if not (the fields are still written), and 1 if the input is refused or the files cannot be
-/// written. Probable mistakes, such as a tilt, give warnings, one line each and in the report; --strict treats them as
-/// errors.
-#[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())), mut_args(results::of_files))]
-pub struct Options {
-    #[command(flatten)]
-    problem: Chosen<(SurfaceKeys, LoadKeys, AdhesionKeys, SolverKeys, NestedKeys, AccuracyKeys)>,
-
-    /// Folder for the results, without which they are only printed; made if needed
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    out: Option<PathBuf>,
-    /// Replace results that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    #[command(flatten)]
-    findings: Chosen<(FindingsKeys, ConductorKeys, PercolationKeys, LeakageKeys)>,
-    /// Fields to write besides gap and pressures. If the second body is rigid, displacement.npy is gap plus height,
-    /// less a plastic depth. If both are elastic, it is the displacement of the first one, and against_displacement.npy
-    /// the displacement of the second
-    #[arg(long, value_enum, value_name = "FIELD", requires = "out", help_heading = "Output")]
-    fields: Option<Beside>,
-    /// Write distribution.csv: the probability density of the contact pressure over the nodes, in this many bins from 0
-    /// to the largest pressure; its integral is the contact fraction [default: 50 if --distribution has no value]
-    #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
-    #[arg(value_parser = bins, allow_negative_numbers = true, requires = "out")]
-    distribution: Option<usize>,
-    /// Files for the fields: .npy one each, all in fields.npz for NumPy, or in fields.vti for ParaView; may be
-    /// repeated
-    #[arg(long, value_enum, value_name = "FORMAT", default_value = "npy", value_delimiter = ',')]
-    #[arg(help_heading = "Output")]
-    format: Vec<Format>,
-    #[command(flatten)]
-    pub strictness: Strictness,
-    #[command(flatten)]
-    printing: Printing,
-    /// Write no pictures
-    #[arg(long, help_heading = "Output")]
-    no_pictures: bool,
-    /// Format of the pictures
-    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
-    picture_format: PictureFormat,
-    #[command(flatten)]
-    size: PaperOptions,
-    #[command(flatten)]
-    colours: MapColours,
-    #[command(flatten)]
-    units: Chosen<UnitKeys>,
+keys! {
+    /// Solve a contact problem under one load.
+    ///
+    /// Either all numbers have units, such as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent
+    /// units will do. With units all results are in SI units, and heights of a file that names no unit are in m. The folder
+    /// gets gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
+    /// part), and with a hardness plastic_depth.npy; --format chooses other files. It also gets report.json, contact.png
+    /// and pressure.png (or .svg, .pdf), and scene.toml, which repeats the run. Either all files are written or none. Exits
+    /// with 0 if converged, 2 if not (the fields are still written), and 1 if the input is refused or the files cannot be
+    /// written. Probable mistakes, such as a tilt, give warnings, one line each and in the report; --strict treats them as
+    /// errors.
+    ///
+    /// # Examples
+    ///   Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
+    ///     asperity solve --heights heights.npy --mean-gap 0.04 --out results
+    ///   The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
+    ///     asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \
+    ///       --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --out sticky
+    ///   The same load without adhesion, by way of coarser grids, which is the default where it is faster:
+    ///     asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \
+    ///       --nested --out nested
+    ///   A contact area that is right to 5 %, on a grid as fine as that takes:
+    ///     asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
+    ///   Continue from the case with adhesion to a tension:
+    ///     asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure -10kPa \
+    ///       --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --initial-gap sticky/gap.npy \
+    ///       --out pulled
+    Options {
+        "Output" {
+            /// Folder for the results, without which they are only printed; made if needed
+            out: Option<PathBuf> = Kind::folder(),
+            /// Replace results that are there
+            force: bool = Kind::switch(),
+            /// Fields to write besides gap and pressures. If the second body is rigid, displacement.npy is gap plus
+            /// height, less a plastic depth. If both are elastic, it is the displacement of the first one, and
+            /// against_displacement.npy the displacement of the second
+            fields: Option<String> = Kind::word(|| Word::all(&["displacement"]), &["FIELD"]).needs(&["out"]),
+            /// Write distribution.csv: the probability density of the contact pressure over the nodes, in this many bins
+            /// from 0 to the largest pressure; its integral is the contact fraction [default: 50 if --distribution has no
+            /// value]
+            distribution: Option<usize> = Kind::bins(&["BINS"]).alone("50").needs(&["out"]),
+            /// Files for the fields: .npy one each, all in fields.npz for NumPy, or in fields.vti for ParaView; may be
+            /// repeated
+            format: Vec<Format> = Kind::word(Format::words, &["FORMAT"]).or("npy").commas(),
+            /// Write no pictures
+            no_pictures: bool = Kind::switch(),
+        }
+    }
 }
 
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  Press a map of 1 by 1, with a contact modulus of 1, to a mean gap of 0.04:
-    asperity solve --heights heights.npy --mean-gap 0.04 --out results
-  The surface of the demo (asperity-demo/heights.npy) in SI units, with adhesion:
-    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \\
-      --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --out sticky
-  The same load without adhesion, by way of coarser grids, which is the default where it is faster:
-    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure 2.5MPa \\
-      --nested --out nested
-  A contact area that is right to 5 %, on a grid as fine as that takes:
-    asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
-  Continue from the case with adhesion to a tension:
-    asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure -10kPa \\
-      --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --initial-gap sticky/gap.npy \\
-      --out pulled";
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Format {
-    Npy,
-    Npz,
-    Vti,
+choice! {
+    /// A format of the files of fields.
+    Format {
+        /// one file for each field
+        Npy = "npy",
+        /// one file, for NumPy
+        Npz = "npz",
+        /// one file, for ParaView
+        Vti = "vti",
+    }
 }
 
 /// The fields of a solution.
@@ -122,15 +98,17 @@ pub fn files() -> Vec<String> {
 }
 
 /// Runs the command; whether it converged.
-pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
-    let problem = &options.problem()?;
+pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
+    let problem = &ProblemOptions::of(&scene.given)?;
+    let options = scene.keys::<Options>();
     options.check_asked(problem, processes)?;
-    options.colours.check()?;
-    let results = options.out.as_deref().map(|out| Results { out, scene, files: files(), force: options.force });
+    scene.keys::<MapColours>().check()?;
+    let Options { ref out, force, .. } = options;
+    let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
     processes.first(|| results.as_ref().map_or(Ok(()), |results| results.check(problem.files())))?;
-    let posed = problem.read(scene, processes)?.posed;
+    let posed = problem.read(processes)?.posed;
     let pictures = !options.no_pictures && results.is_some();
-    let job = Job { options, problem, results, processes, part: posed.part, pictures };
+    let job = Job { options: &options, problem, results, processes, part: posed.part, pictures };
     match problem.case.scene().precision {
         Precision::F32 => job.run::<f32>(posed),
         Precision::F64 => job.run::<f64>(posed),
@@ -140,11 +118,6 @@ pub fn run(options: &Options, &Call { scene, processes }: &Call<'_>) -> Outcome<
 impl Options {
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
-    }
-
-    /// The problem.
-    pub fn problem(&self) -> Outcome<ProblemOptions> {
-        ProblemOptions::of([&self.problem.0, &self.findings.0, &self.units.0])
     }
 
     /// Refuses what excludes each other, and what has no form for several processes.
@@ -174,25 +147,26 @@ struct Job<'a> {
 impl Job<'_> {
     /// The files of these options.
     fn names(&self) -> Vec<String> {
-        let (options, picture) = (self.options, |name| self.options.picture_format.file(name));
-        let arrays = FIELDS.into_iter().chain(options.beside(self.problem.case.scene()));
+        let (options, FormatKeys { picture_format }) = (self.options, self.problem.case.given().keys());
+        let arrays = FIELDS.into_iter().chain(options.beside(&self.problem.case));
         let arrays = arrays.filter(|_| options.writes(Format::Npy));
         let archives =
             [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
         let fields = arrays.chain(archives.map(|(_, name)| name)).chain([REPORT, scene::NAME]);
         let names = fields.chain(options.distribution.map(|_| DISTRIBUTION)).map(str::to_owned);
-        names.chain(PICTURES.into_iter().filter(|_| self.pictures).map(picture)).collect()
+        names.chain(PICTURES.into_iter().filter(|_| self.pictures).map(|name| picture_format.file(name))).collect()
     }
 
     fn run<T: Scalar>(mut self, posed: Posed) -> Outcome<bool> {
         let (options, processes, mut grid) = (self.options, self.processes, *posed.surface.grid());
-        let printing = options.printing;
+        let given = self.problem.case.given();
+        let printing: Printing = given.keys();
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
         if !fits {
             self.leave_out_what_takes_whole_fields()?;
         }
-        let kept = options.fields.map(|Beside::Displacement| posed.surface.clone());
-        let session = options.strictness.session::<T>(posed, processes)?;
+        let kept = options.fields.as_ref().map(|_| posed.surface.clone());
+        let session = given.keys::<Strictness>().session::<T>(posed, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         let start = self.problem.start(&mut session, processes)?.map(T::field);
         let full = session.full_pressure(&[self.problem.case.load()?])?;
@@ -217,7 +191,7 @@ impl Job<'_> {
         let Solved { found, account } = solved;
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
-        let mut beside = options.fields_beside(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
+        let mut beside = fields_beside(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
         let solution = &found.solution;
 
         let mut told = Vec::new();

@@ -6,11 +6,10 @@ use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Chosen, LengthsKeys, Skin, statistics};
-use clap::Args;
+use asperity_scene::{Kind, Skin, keys, statistics};
 use serde_json::Map;
 
-use crate::Call;
+use crate::command::Call;
 use crate::csv;
 use crate::heights::{self, check_complete, check_room, unread};
 use crate::outcome::Outcome;
@@ -20,45 +19,40 @@ use crate::report;
 use crate::session;
 use crate::units::Units;
 
-/// Print the statistics of a rough surface.
-///
-/// Prints heights, slopes, curvatures and Nayak's parameter of the surface without any correction, continued
-/// periodically: a tilt, or edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier
-/// spectrum and from differences between neighbours; if the two differ much, the map does not resolve the surface. If
-/// the spectrum flattens to a floor of noise, its knee is printed. Without side lengths there are no slopes, no
-/// curvatures and no Nayak's parameter.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Options {
-    /// Heights, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text
-    /// export, or a text matrix
-    #[arg(value_name = "FILE")]
-    heights: PathBuf,
-    #[command(flatten)]
-    lengths: Chosen<LengthsKeys>,
-    /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
-    /// the density, with the mean square height as its integral over both wave numbers, and the number of waves in its
-    /// mean
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    psd: Option<PathBuf>,
-    /// Replace a file that is there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    #[command(flatten)]
-    printing: Printing,
+keys! {
+    /// Print the statistics of a rough surface.
+    ///
+    /// Prints heights, slopes, curvatures and Nayak's parameter of the surface without any correction, continued
+    /// periodically: a tilt, or edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier
+    /// spectrum and from differences between neighbours; if the two differ much, the map does not resolve the surface. If
+    /// the spectrum flattens to a floor of noise, its knee is printed. Without side lengths there are no slopes, no
+    /// curvatures and no Nayak's parameter.
+    ///
+    /// # Examples
+    ///   asperity stats heights.npy
+    ///   asperity stats asperity-demo/heights.npy --lengths 1um --psd psd.csv
+    Options {
+        "Output" {
+            /// Heights, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text
+            /// export, or a text matrix
+            heights: PathBuf = Kind::file().positional(&["FILE"]).required(),
+            /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per
+            /// length, the density, with the mean square height as its integral over both wave numbers, and the number of
+            /// waves in its mean
+            psd: Option<PathBuf> = Kind::file(),
+            /// Replace a file that is there
+            force: bool = Kind::switch(),
+        }
+    }
 }
 
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  asperity stats heights.npy
-  asperity stats asperity-demo/heights.npy --lengths 1um --psd psd.csv";
-
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
-    let (path, psd) = (&options.heights, options.psd.as_deref());
-    psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
-    let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let map = heights::map(path, &options.lengths.0, scene.is_si())?;
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let (Options { heights: path, psd, force }, printing) = (scene.keys(), scene.keys::<Printing>());
+    let path = &*path;
+    psd.iter().try_for_each(|psd| check_apart(psd, [path]))?;
+    let psd = psd.map(|psd| OutputFile::create(&psd, force)).transpose()?;
+    let map = heights::map(path, &scene.given, scene.is_si())?;
     check_room(map.heights.dim())?;
     if map.lengths.is_some() && !map.unread.is_empty() {
         warn(format!("{} also has {}", path.display(), map.unread.join(", ")));
@@ -80,8 +74,8 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         Some(surface) => (surface.statistics(), knee_wavelength(surface)),
         None => (map.statistics()?, None),
     };
-    options.printing.say(&table(&map, &found));
-    options.printing.report(|| {
+    printing.say(&table(&map, &found));
+    printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
         report::report("stats", statistics::figures(&map, &found, path), &version)
     });

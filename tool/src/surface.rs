@@ -7,75 +7,58 @@ use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Body, BodyForm, Chosen, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys, statistics};
-use clap::{ArgGroup, Args};
+use asperity_scene::{Body, BodyForm, Given, Kind, Roughness, RoughnessKeys, keys, statistics};
 use serde_json::json;
 
-use crate::Call;
-use crate::allowed::threads;
+use crate::command::Call;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, in_options, name};
 use crate::quantity::LENGTH;
 use crate::report;
-use crate::scene::{self, SceneFile};
+use crate::scene;
 use crate::stats::{density_table, table};
 use crate::threads::use_threads;
 
-/// Make a self-affine rough surface or a simple body, and print its statistics.
-///
-/// A body has a --form, such as a sphere. A solve treats its missing parts as absent nodes by --absent-missing.
-/// --rms-height or --rms-slope adds roughness. The roughness is periodic and isotropic. Its power spectral density is
-/// constant from KL to KR, falls as k^(-2-2H) from KR to KS (on a line as k^(-1-2H)), and is zero elsewhere. Wave
-/// numbers count periods along x. A seed gives the same surface on every grid that resolves KS, with the given rms
-/// height or slope to rounding. --fourier reads the waves of the roughness from a file. asperity run FILE.scene.toml
-/// makes the heights again.
-#[derive(Args)]
-#[command(after_help = EXAMPLES)]
-#[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
-pub struct Options {
-    #[command(flatten)]
-    grid: Chosen<GridKeys>,
-    #[command(flatten)]
-    form: Chosen<FormKeys>,
-    #[command(flatten)]
-    roughness: Chosen<RoughnessKeys>,
-    #[command(flatten)]
-    fourier: Chosen<FourierKeys>,
-
-    /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    out: PathBuf,
-    /// File for the radially averaged power spectral density, as asperity stats writes it, and its target
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    psd: Option<PathBuf>,
-    /// Replace files that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
-    #[command(flatten)]
-    printing: Printing,
-    /// Threads; the surface does not depend on it [default: one per core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Output")]
-    threads: Option<usize>,
+keys! {
+    /// Make a self-affine rough surface or a simple body, and print its statistics.
+    ///
+    /// A body has a --form, such as a sphere. A solve treats its missing parts as absent nodes by --absent-missing.
+    /// --rms-height or --rms-slope adds roughness. The roughness is periodic and isotropic. Its power spectral density is
+    /// constant from KL to KR, falls as k^(-2-2H) from KR to KS (on a line as k^(-1-2H)), and is zero elsewhere. Wave
+    /// numbers count periods along x. A seed gives the same surface on every grid that resolves KS, with the given rms
+    /// height or slope to rounding. --fourier reads the waves of the roughness from a file. asperity run FILE.scene.toml
+    /// makes the heights again.
+    ///
+    /// # Examples
+    ///   The surface of the paper's figures, with a slope that can be pressed:
+    ///     asperity surface --size 1024 --rms-slope 0.1 --out heights.npy
+    ///   A rectangle of a micrometre by two, with a plateau in the spectrum, and the spectrum:
+    ///     asperity surface --shape 256 512 --lengths 1um 2um --rms-height 5nm --hurst 0.7 \
+    ///       --k-l 2 --k-r 6 --k-s 50 --seed 7 --out rectangle.npy --psd psd.csv
+    ///   A profile:
+    ///     asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy
+    ///   A tip of 20 nm on a map of 32 nm by 32 nm, as a sphere and as a rough one:
+    ///     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --out tip.npz
+    ///     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --rms-height 0.2nm \
+    ///       --k-s 32 --out rough-tip.npz
+    ///   The surface of the contact-mechanics challenge (Mueser et al. 2017), where low values touch first:
+    ///     asperity surface --fourier surface.Fourier.ASCII.dat --fourier-unit 0.1mm --size 2048 \
+    ///       --lengths 0.1mm --out low.npz
+    ///     asperity prepare low.npz --flip --out challenge.npz
+    Options {
+        "Output" {
+            /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
+            out: PathBuf = Kind::file().required(),
+            /// File for the radially averaged power spectral density, as asperity stats writes it, and its target
+            psd: Option<PathBuf> = Kind::file(),
+            /// Replace files that are there
+            force: bool = Kind::switch(),
+            /// Threads; the surface does not depend on it [default: one per core]
+            threads: Option<usize> = Kind::threads(),
+        }
+    }
 }
-
-const EXAMPLES: &str = "\
-\u{1b}[1;4mExamples:\u{1b}[0m
-  The surface of the paper's figures, with a slope that can be pressed:
-    asperity surface --size 1024 --rms-slope 0.1 --out heights.npy
-  A rectangle of a micrometre by two, with a plateau in the spectrum, and the spectrum:
-    asperity surface --shape 256 512 --lengths 1um 2um --rms-height 5nm --hurst 0.7 \\
-      --k-l 2 --k-r 6 --k-s 50 --seed 7 --out rectangle.npy --psd psd.csv
-  A profile:
-    asperity surface --shape 4096 1 --rms-slope 0.1 --k-s 1000 --out profile.npy
-  A tip of 20 nm on a map of 32 nm by 32 nm, as a sphere and as a rough one:
-    asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --out tip.npz
-    asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --rms-height 0.2nm \\
-      --k-s 32 --out rough-tip.npz
-  The surface of the contact-mechanics challenge (Mueser et al. 2017), where low values touch first:
-    asperity surface --fourier surface.Fourier.ASCII.dat --fourier-unit 0.1mm --size 2048 \\
-      --lengths 0.1mm --out low.npz
-    asperity prepare low.npz --flip --out challenge.npz";
 
 /// The surface that options describe.
 struct Described {
@@ -87,31 +70,32 @@ struct Described {
 }
 
 /// The map of the surface, without a file.
-pub fn map(options: &Options, scene: &SceneFile) -> Outcome<Topography> {
-    Ok(described(options, scene)?.make()?.1)
+pub fn map(given: &Given) -> Outcome<Topography> {
+    Ok(described(given)?.make()?.1)
 }
 
-fn described(options: &Options, scene: &SceneFile) -> Outcome<Described> {
-    let shape = in_options(options.grid.0.shape())?;
-    let (body, roughness): (Body, Roughness) = (options.form.0.object()?, options.roughness.0.object()?);
-    let (form, fourier) = (body.form, options.fourier.0.fourier());
+fn described(given: &Given) -> Outcome<Described> {
+    let is_si = given.quantities().is_si();
+    let shape = in_options(given.shape())?;
+    let (body, roughness): (Body, Roughness) = (given.object()?, given.object()?);
+    let (form, fourier) = (body.form, given.fourier());
     in_options(body.check())?;
     let rough = roughness.self_affine();
     if rough.is_none() && fourier.is_none() && form == BodyForm::SelfAffine {
         return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope, or --fourier".into());
     }
-    let unit = scene.is_si().then_some(LENGTH.si);
-    let sides = in_options(options.grid.0.sides(shape, scene.is_si()))?;
-    if let (Some(_), Some(key)) = (&fourier, options.roughness.0.first()) {
+    let unit = is_si.then_some(LENGTH.si);
+    let sides = in_options(given.sides(shape, is_si))?;
+    if let (Some(_), Some(key)) = (&fourier, given.first::<RoughnessKeys>()) {
         let text = format!("{{{key}}} is of random roughness, which {{fourier}} replaces: leave it out");
         return in_options(Err(text));
     }
-    if unit.is_some() && fourier.is_some() && options.fourier.0.fourier_unit().is_none() {
+    if unit.is_some() && fourier.is_some() && given.fourier_unit().is_none() {
         let text = "the numbers have units, but the coefficients have none: give --fourier-unit, such as 0.1mm";
         return Err(text.into());
     }
     let grid = Grid::new(shape, sides)?;
-    let fourier = fourier.map(|path| (path, options.fourier.0.fourier_unit().unwrap_or(1.0)));
+    let fourier = fourier.map(|path| (path, given.fourier_unit().unwrap_or(1.0)));
     Ok(Described { grid, body, rough, fourier, unit })
 }
 
@@ -135,8 +119,9 @@ impl Described {
 }
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
-    let described = described(options, scene)?;
+pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
+    let (options, printing) = (&scene.keys::<Options>(), scene.keys::<Printing>());
+    let described = described(&scene.given)?;
     let &Described { grid, rough, unit, .. } = &described;
     let (form, fourier) = (described.body.form, described.fourier.as_ref().map(|(path, _)| path.as_path()));
     for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
@@ -168,12 +153,12 @@ pub fn run(options: &Options, &Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     scene.written_beside(&options.out)?.commit_after(std::iter::once(heights).chain(psd))?;
     // what is absent has no statistics
     let ((nx, ny), found) = (grid.shape(), (absent == 0).then(|| (surface.statistics(), knee_wavelength(&surface))));
-    options.printing.say(&match &found {
+    printing.say(&match &found {
         Some(found) => table(&map, found),
         None => format!("{nx} x {ny} nodes, {absent} of them absent"),
     });
-    options.printing.say(&format!("heights in {}", name(&options.out)));
-    options.printing.report(|| {
+    printing.say(&format!("heights in {}", name(&options.out)));
+    printing.report(|| {
         let figures = match &found {
             Some(found) => statistics::figures(&map, found, &options.out),
             None => json!({

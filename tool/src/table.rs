@@ -6,12 +6,12 @@ use std::path::Path;
 use asperity::{Control, Error, Surface};
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    Account, After, Boundary, CycleLimits, Format, Load, Precision, Row, Scene, Session, Skin, TableFile, Way,
-    shortfalls,
+    Account, After, Boundary, CycleLimits, Format, Given, Kind, Load, Precision, Row, Scene, Session, Skin, TableFile,
+    Way, keys, shortfalls,
 };
-use clap::Args;
 use serde_json::{Map, Value, json};
 
+use crate::command::Call;
 use crate::interruption;
 use crate::numbers::percent;
 use crate::options::{Problem, ProblemOptions, Scalar};
@@ -26,31 +26,46 @@ use crate::scene::SceneFile;
 use crate::session::{Strictness, UNCONVERGED, say_new};
 use crate::warnings;
 
+keys! {
+    /// Whether a table is filled anew.
+    ForceKeys {
+        "Output" {
+            /// Start over, and replace files that are there
+            force: bool = Kind::switch(),
+        }
+    }
+}
+
 /// The replacements, refusals and prints of a run that fills a table.
-#[derive(Args)]
+#[derive(Clone, Copy)]
 pub struct Manner {
-    /// Start over, and replace files that are there
-    #[arg(long, help_heading = "Output")]
     pub force: bool,
-    #[command(flatten)]
     pub strictness: Strictness,
-    #[command(flatten)]
     pub printing: Printing,
 }
 
 /// The options of a table.
-#[derive(Clone, Copy)]
 pub struct TableOptions<'a> {
-    pub problem: &'a ProblemOptions,
+    pub problem: ProblemOptions,
     pub out: &'a Path,
     pub format: Format,
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
-    pub manner: &'a Manner,
+    pub manner: Manner,
     /// Whether the table belongs to an interface
     pub interface: bool,
+}
+
+impl<'a> TableOptions<'a> {
+    /// The options of a call for a table in a format, with a folder for fields if they are wanted.
+    pub fn of(call: &Call<'a>, out: &'a Path, format: Format, fields: Option<&'a Path>) -> Outcome<Self> {
+        let &Call { scene, processes } = call;
+        let (problem, ForceKeys { force }) = (ProblemOptions::of(&scene.given)?, scene.keys());
+        let manner = Manner { force, strictness: scene.keys(), printing: scene.keys() };
+        Ok(Self { problem, out, format, fields, scene, processes, manner, interface: false })
+    }
 }
 
 /// The format of a table by the ending of its name; `or` is what else than another name would do.
@@ -67,12 +82,12 @@ fn of_rows<T: Scalar>(session: &Session<T>, word: &str) -> String {
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
 pub trait Fill {
     /// The way through the loads.
-    fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
+    fn way(&self, loads: &[Load], full: f64, _: &Given) -> Outcome<Way> {
         Ok(Way::sweep(loads, full))
     }
 
     /// Puts the session on the grid of the way, before its first row.
-    fn refine<T: Scalar>(&self, _: &mut Session<T>, _: &Way, _: bool) -> Outcome<()> {
+    fn refine<T: Scalar>(&self, _: &mut Session<T>, _: &Way, _: &TableOptions<'_>, _: bool) -> Outcome<()> {
         Ok(())
     }
 
@@ -87,7 +102,7 @@ pub trait Fill {
 
 /// A table on disk, new or continued, with the session that fills it.
 pub struct Table<'a, T: Scalar> {
-    options: TableOptions<'a>,
+    pub options: TableOptions<'a>,
     pub session: Session<T>,
     pub theories: Option<Theories>,
     /// The kind of the loads
@@ -98,12 +113,12 @@ pub struct Table<'a, T: Scalar> {
 impl<'a> TableOptions<'a> {
     /// Reads the files of the problem, opens the table, and fills it.
     pub fn fill(self, by: &impl Fill) -> Outcome<bool> {
-        let problem = self.problem;
+        let problem = &self.problem;
         let after = problem.case.after(self.interface)?;
         problem.case.check_table()?;
         let loads = problem.case.loads()?;
         problem.check_after(&after, self.processes)?;
-        let given = problem.read(self.scene, self.processes)?;
+        let given = problem.read(self.processes)?;
         match problem.case.scene().precision {
             Precision::F32 => by.fill(&mut self.open::<f32>(given, &loads, after, by)?),
             Precision::F64 => by.fill(&mut self.open::<f64>(given, &loads, after, by)?),
@@ -112,8 +127,8 @@ impl<'a> TableOptions<'a> {
 
     /// Opens the table, writes the scene of the run next to it, and says the warnings so far.
     fn open<T: Scalar>(self, given: Problem, loads: &[Load], after: After, by: &impl Fill) -> Outcome<Table<'a, T>> {
-        let Self { problem, out, scene, processes, manner, .. } = self;
-        let &Manner { force, strictness, printing } = manner;
+        let Self { ref problem, out, scene, processes, manner, .. } = self;
+        let Manner { force, strictness, printing } = manner;
         let (Problem { posed, table: law_table, works }, of_case) = (given, problem.case.scene());
         let grid = *posed.surface.grid();
         let theories = by.theories(&posed.surface, of_case)?;
@@ -121,14 +136,14 @@ impl<'a> TableOptions<'a> {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
         let mut session = strictness.session::<T>(posed, processes)?;
-        let way = by.way(loads, session.full_pressure(loads)?)?;
+        let way = by.way(loads, session.full_pressure(loads)?, &scene.given)?;
         let control = way.control(of_case);
         // the softest mode of a path is on the grid of the surface
         if of_case.elastic.boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
             processes.alone("a cycle with --boundary free")?;
         }
         let start = problem.start(&mut session, processes)?;
-        by.refine(&mut session, &way, start.is_some())?;
+        by.refine(&mut session, &way, &self, start.is_some())?;
         let mut scene_file = None;
         processes.first(|| {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
@@ -158,7 +173,7 @@ impl<'a> TableOptions<'a> {
 impl<T: Scalar> Table<'_, T> {
     /// Sets what an interruption says of the rows.
     fn stands(&self) {
-        let TableOptions { out, manner, .. } = self.options;
+        let TableOptions { out, manner, .. } = &self.options;
         let command = if manner.force { "the same command without --force" } else { "the same command" };
         let (rows, of, out) = (self.session.rows(), of_rows(&self.session, " of "), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} continues from there"));
@@ -188,7 +203,7 @@ impl<T: Scalar> Table<'_, T> {
     /// Solves the next row, while a bar has its number, and appends it. Refuses a solution that ran away, and says its
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
-        let TableOptions { problem, manner, .. } = self.options;
+        let TableOptions { problem, manner, .. } = &self.options;
         if self.session.of_rows() == Some(self.session.rows()) {
             return Ok(None);
         }
@@ -210,7 +225,7 @@ impl<T: Scalar> Table<'_, T> {
     /// The limits of no range of a complete cycle, where the same cycle on a coarser grid tells them, which a bar follows if
     /// it is ahead.
     pub fn limit(&mut self) -> Outcome<Option<CycleLimits>> {
-        let TableOptions { problem, manner, .. } = self.options;
+        let TableOptions { problem, manner, .. } = &self.options;
         let ahead = self.session.coarser_shape();
         if let Some((nx, ny)) = ahead {
             manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
@@ -259,7 +274,7 @@ impl<T: Scalar> Table<'_, T> {
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
     pub fn report(&self, found: Value) -> Value {
-        let (control, TableOptions { out, problem, .. }) = (self.control, self.options);
+        let (control, TableOptions { out, problem, .. }) = (self.control, &self.options);
         let mut outcome = Map::from_iter([
             ("control".to_owned(), control.name().into()),
             ("rows".to_owned(), self.session.rows().into()),

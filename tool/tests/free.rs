@@ -121,7 +121,7 @@ fn a_cycle_to_an_accuracy_is_on_the_grid_that_it_takes() {
         ("0.1 --law exponential --range 1e-3", "the error of the grid is known of the law jkr alone"),
         ("0.1 --law jkr --hardness 1", "--accuracy and --hardness"),
         ("0.03 --law jkr --memory 1e-6", "an accuracy of 0.03 of the work takes about"),
-        ("0.1 --law jkr --accuracy-of area", "work, tension"),
+        ("0.1 --law jkr --accuracy-of area", "work or tension"),
     ] {
         let said = bench.refused(&format!("{cycle} --heights 64.npz --out d.csv --quiet --accuracy {more}"));
         assert!(said.contains(refused), "{said}");

@@ -44,7 +44,7 @@ pub use self::asked::{Asked, NestedKeys, PathKeys};
 pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
 pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
-pub use self::given::{Given, Measured, Quantities, Taken, Typed};
+pub use self::given::{Choice, Given, Measured, Quantities, Taken, Typed};
 pub use self::keywords::KEYWORDS;
 pub use self::kind::{Form, Kind, Values, Word};
 pub use self::laws::{LAWS, Law, tabulated};
@@ -52,7 +52,7 @@ pub use self::leak::{LeakAsked, LeakKeys};
 pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
 pub use self::number::{Measure, Number};
 #[cfg(feature = "options")]
-pub use self::options::Chosen;
+pub use self::options::chosen;
 pub use self::pair::between;
 pub use self::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
 pub use self::scalar::Scalar;
@@ -95,6 +95,8 @@ pub struct Key {
 
 /// A list of keys that belong together.
 pub trait Keys {
+    /// The meaning of the list.
+    const ABOUT: &'static str;
     /// The keys, in the order of the help.
     const KEYS: &'static [Key];
 
@@ -148,6 +150,14 @@ static OTHERS: [&[Key]; 8] = [
 ];
 
 impl Key {
+    /// The name of the key of a field, which may be `r#for`.
+    pub const fn name_of(field: &'static str) -> &'static str {
+        match field.as_bytes() {
+            [b'r', b'#', ..] => field.split_at(2).1,
+            _ => field,
+        }
+    }
+
     /// All keys.
     pub fn all() -> impl Iterator<Item = &'static Self> {
         KEYWORDS.iter().map(|(.., list)| *list).chain(OTHERS).flatten()
@@ -196,7 +206,8 @@ impl Key {
             return Ok((*name).to_owned());
         }
         let (last, others) = names.split_last().ok_or("there are no words for it")?;
-        Err(format!("it must be {} or {last}", others.join(", ")))
+        let others = if others.is_empty() { String::new() } else { format!("{} or ", others.join(", ")) };
+        Err(format!("it must be {others}{last}"))
     }
 
     /// What a value is, with its article.

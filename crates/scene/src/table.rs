@@ -16,23 +16,21 @@ use asperity::{Error, Solution};
 use serde_json::{Map, Value};
 
 use crate::account::{Row, Step};
-use crate::key::Scalar;
+use crate::key::{Choice, Scalar, choice};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::table::identity::Identity;
 use crate::table::journal::{Journal, Row as Line, State, Written, refused, state_path};
 use crate::table::kept::Kept;
 
-/// The format of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum Format {
-    /// Comma-separated values, with a header.
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    Csv,
-    /// A JSON object on each line.
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    Jsonl,
+choice! {
+    /// The format of a table, by the end of the names of its files.
+    Format {
+        /// comma-separated values, with a header
+        Csv = "csv",
+        /// a JSON object on each line
+        Jsonl = "jsonl",
+    }
 }
 
 /// The opening of a table.
@@ -77,16 +75,7 @@ pub struct Table {
 impl Format {
     /// The format of a file by its name.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_lowercase().as_str() {
-            "csv" => Some(Self::Csv),
-            "jsonl" => Some(Self::Jsonl),
-            _ => None,
-        }
-    }
-
-    /// The name, the end of the names of its files.
-    pub fn name(self) -> &'static str {
-        if self == Self::Csv { "csv" } else { "jsonl" }
+        Self::named(&path.extension()?.to_str()?.to_lowercase())
     }
 
     /// The first line of a table with these columns; none, if each row names them.

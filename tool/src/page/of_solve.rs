@@ -28,7 +28,7 @@ use crate::solved::{Solved, units_of};
 use crate::units::Units;
 
 /// The page of a folder of results.
-pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
+pub fn page(folder: &Path, colours: &MapColours, is_si: bool) -> Outcome<String> {
     let path = folder.join(REPORT);
     let text = fs::read_to_string(&path).map_err(|_| {
         Error::file(&path, "is not there: name a folder of results, or the table of a sweep or a cycle")
@@ -67,7 +67,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     }
     let said: Vec<Told> = serde_json::from_value(report[key!(Account, warnings)].clone()).unwrap_or_default();
     warnings.extend(said.iter().map(Told::to_string));
-    if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
+    if is_si && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
     let mut maps = Page::default();

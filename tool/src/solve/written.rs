@@ -6,11 +6,11 @@ use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, gap_to_write};
 
 use super::beside::Named;
-use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, Options, PICTURES, VTI};
+use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, PICTURES, VTI};
 use crate::csv;
 use crate::options::Scalar;
 use crate::output::write_text;
-use crate::pictures;
+use crate::pictures::{self, FormatKeys, MapColours, PaperOptions};
 use crate::results::write_report;
 use crate::units::Units;
 
@@ -49,17 +49,18 @@ impl Job<'_> {
         if !self.pictures {
             return Ok(None);
         }
-        let &Options { picture_format, ref size, ref colours, .. } = self.options;
+        let given = self.problem.case.given();
+        let (FormatKeys { picture_format }, colours) = (given.keys(), given.keys::<MapColours>());
+        let paper = given.keys::<PaperOptions>().paper();
         let [contact_name, pressure_name] = PICTURES.map(|name| path(&picture_format.file(name)));
         let mut regions = self.part.of_field(whole.regions())?.mapv(f64::from);
         let depth = solution.plastic_depth.as_ref();
         depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
         let meet = self.part.sides_meet(whole);
-        pictures::draw_contact(shown, "Contact", units, &regions, colours.clusters(meet), size.paper())?
+        pictures::draw_contact(shown, "Contact", units, &regions, colours.clusters(meet), paper)?
             .write(contact_name)?;
         let pressure = pictures::pressure_to_draw(solution, self.problem.case.scene().adhesion.adheres());
-        let picture =
-            pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, colours.limits(), size.paper())?;
+        let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, colours.limits(), paper)?;
         picture.write(pressure_name)?;
         Ok(picture.load_beyond().map(str::to_owned))
     }

@@ -19,9 +19,7 @@ use crate::session::Strictness;
 
 /// A case to solve, by a command.
 pub struct Run<'a> {
-    pub command: &'a str,
     pub problem: ProblemOptions,
-    pub strictness: Strictness,
     pub scene: SceneFile,
     pub processes: &'a Processes,
     /// The file of the rows
@@ -37,14 +35,14 @@ impl Run<'_> {
         let Self { problem, scene, processes, .. } = self;
         let case = &problem.case;
         case.check_table()?;
-        let loads = match self.command {
+        let loads = match scene.command {
             "solve" => vec![case.load()?],
             "pull-off" => Vec::new(),
             _ => case.loads()?,
         };
         let after = case.after(false)?;
         problem.check_after(&after, processes)?;
-        let given = problem.with(made, scene, processes)?;
+        let given = problem.with(made, processes)?;
         match case.scene().precision {
             Precision::F32 => self.rows::<f32>(given, &loads, after, warn),
             Precision::F64 => self.rows::<f64>(given, &loads, after, warn),
@@ -52,9 +50,9 @@ impl Run<'_> {
     }
 
     fn rows<T: Scalar>(&self, given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
-        let Self { problem, out, .. } = self;
+        let Self { problem, scene, out, .. } = self;
         let Problem { posed, table: law_table, works } = given;
-        let mut session = self.strictness.session::<T>(posed, self.processes)?;
+        let mut session = scene.keys::<Strictness>().session::<T>(posed, self.processes)?;
         let (full, start) = (session.full_pressure(loads)?, problem.start(&mut session, self.processes)?);
         // rows that have not converged are counted in the table
         let mut tell = |warnings: &mut Warnings, row: usize, account: Option<&Account>| {
@@ -62,8 +60,8 @@ impl Run<'_> {
             let short = account.into_iter().flat_map(|account| shortfalls(account, Skin::Options));
             short.filter(|(what, _)| *what != "convergence").for_each(|(_, text)| warn(format!("row {row}: {text}")));
         };
-        if let "sweep" | "cycle" = self.command {
-            let way = match self.command {
+        if let "sweep" | "cycle" = scene.command {
+            let way = match scene.command {
                 "cycle" => Way::cycle(loads, full, problem.case.given().path())?,
                 _ => Way::sweep(loads, full),
             };

@@ -1,25 +1,25 @@
 //! The cases of a study, read from its file: every combination of the values that vary.
 
 use std::collections::HashMap;
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity_scene::{Format, Hash, Key};
-use clap::{Arg, Command};
+use asperity_scene::{Format, Hash, Key, Values};
+use clap::Command as Parser;
 use toml::{Table, Value};
 
 use super::work::folder as folder_of;
-use crate::entries::{document, entries, spelled};
+use crate::command::{Command, Place};
+use crate::entries::{Reader, document, entries};
 use crate::loads::parsed;
 use crate::outcome::Outcome;
-use crate::printing::{on_one_line, on_terminal};
+use crate::printing::on_terminal;
 use crate::quantity::{Quantity, number_and_unit};
-use crate::scene::{is_path, key, section};
+use crate::scene::SceneFile;
 use crate::synonyms::similar;
 use crate::table::format_of;
-use crate::{Place, commands};
+use crate::{named, part_of};
 
 /// The sections that a study has besides the sections of its command.
 pub const SECTIONS: [&str; 2] = ["make", "vary"];
@@ -32,23 +32,24 @@ const MOST_CASES: usize = 1_000_000;
 
 /// A study: its table, and the cases that make the table.
 pub struct Study {
-    /// The command that each case runs
-    pub command: String,
     /// The file of the table
     pub out: PathBuf,
     pub format: Format,
     /// The options that vary, by their names in a table
     pub columns: Vec<String>,
     pub cases: Vec<Case>,
+    commands: Commands,
+    /// The folder of the study, from which files are named
+    folder: PathBuf,
+    /// What is the same in all cases, and the lists of what varies
+    fixed: Choice,
+    lists: Vec<Vec<Choice>>,
 }
 
 /// A run of the command of a study.
 pub struct Case {
     /// The values of the columns; none where an option is not given in this case
     pub values: Vec<Option<Value>>,
-    /// The words of the command, behind the words of a command that makes the surface, if one does; files of results
-    /// are named, and not written
-    pub words: Vec<Vec<OsString>>,
     /// The file of the rows, named by all that they depend on
     pub rows: PathBuf,
 }
@@ -57,17 +58,17 @@ pub struct Case {
 type Choice = Vec<(String, Value)>;
 
 impl Study {
-    /// Reads a study; `tool` defines the commands and options, and `out` replaces the file of the table.
-    pub fn read(tool: &mut Command, path: &Path, out: Option<&Path>) -> Outcome<Self> {
+    /// Reads a study; `tool` has the words of mistakes, and `out` replaces the file of the table.
+    pub fn read(tool: &Parser, path: &Path, out: Option<&Path>) -> Outcome<Self> {
         let refuse = |reason: String| Error::file(path, reason);
         let mut table = document(path)?;
         let is_scene = !SECTIONS.iter().any(|name| table.contains_key(*name));
         let run =
             if is_scene { format!(", or run the scene by 'asperity run {}'", path.display()) } else { String::new() };
-        let name = match table.remove("command") {
-            Some(Value::String(name)) if commands(Place::Study).contains(&name.as_str()) => name,
+        let command = match table.remove("command") {
+            Some(Value::String(name)) if part_of(Place::Study).contains(&name.as_str()) => named(&name)?,
             Some(other) => {
-                let known = commands(Place::Study).join(", ");
+                let known = part_of(Place::Study).join(", ");
                 return Err(refuse(format!("command is {other}: it must be one of {known}{run}")).into());
             }
             None => return Err(refuse(lacks(&table, "command", "does not say what to do", "sweep")).into()),
@@ -85,10 +86,9 @@ impl Study {
             None => Ok(None),
             Some(other) => Err(refuse(format!("{name} is {other}: it must be a section, [{name}]"))),
         });
-        let (make, command) = (make?, tool.find_subcommand(&name).cloned().unwrap_or_default());
-        let fixed = entries(table, &command, &SECTIONS).map_err(refuse)?;
-        let surface = make.as_ref().and_then(|_| tool.find_subcommand("surface").cloned());
-        let commands = Commands(surface.into_iter().chain([command]).collect());
+        let make = make?;
+        let fixed = entries(table, command, &SECTIONS).map_err(refuse)?;
+        let commands = Commands(make.iter().map(|_| named("surface")).chain([Ok(command)]).collect::<Outcome<_>>()?);
         let fixed: Vec<_> = fixed.into_iter().chain(make.into_iter().flatten()).collect();
         let lists = vary?.into_iter().flatten().map(|(key, value)| choices(key, value));
         let lists = lists.collect::<Result<Vec<_>, _>>().map_err(refuse)?;
@@ -105,24 +105,55 @@ impl Study {
         let Some(count @ ..=MOST_CASES) = count else {
             return Err(refuse(format!("has more cases than the {MOST_CASES} that are allowed")).into());
         };
-        let (mut files, mut cases, beside) = (HashMap::new(), Vec::with_capacity(count), folder_of(&out));
+        let columns = keys.iter().map(|key| key.replace('-', "_")).collect();
+        let (files, beside, folder) = (&mut HashMap::new(), folder_of(&out), folder.to_owned());
+        let keys: Vec<_> = keys.into_iter().map(str::to_owned).collect();
+        let cases = Vec::with_capacity(count);
+        let mut study = Self { out, format, columns, cases, commands, folder, fixed, lists };
         for number in 0..count {
-            let all: Vec<_> = fixed.iter().chain(combination(&lists, number)).collect();
-            let told = |error: String| refuse(format!("case {}: {error}", number + 1));
+            let all: Vec<_> = study.entries(number).collect();
             let twice = all.iter().enumerate().find(|(k, (key, _))| all[..*k].iter().any(|(other, _)| other == key));
             if let Some((_, (key, _))) = twice {
                 return Err(refuse(format!("{key} is there twice: remove one of them")).into());
             }
-            let rows = beside.join(format!("{}.{}", commands.identity(&all, folder, &mut files)?, format.name()));
-            let words = commands.words(&all, folder, &rows).map_err(told)?;
-            for words in &words {
-                crate::parsed(tool, words).map_err(|error| told(on_one_line(&error)))?;
-            }
-            let value = |key: &&str| all.iter().find(|(name, _)| name == key).map(|(_, value)| value.clone());
-            cases.push(Case { values: keys.iter().map(value).collect(), words, rows });
+            let rows = format!("{}.{}", study.commands.identity(&all, &study.folder, files)?, format.name());
+            let value = |key: &String| all.iter().find(|(name, _)| name == key).map(|(_, value)| value.clone());
+            let case = Case { values: keys.iter().map(value).collect(), rows: beside.join(rows) };
+            study.cases.push(case);
+            study.scenes(number, tool).map_err(|error| refuse(format!("case {}: {error}", number + 1)))?;
         }
-        let columns = keys.iter().map(|key| key.replace('-', "_")).collect();
-        Ok(Self { command: name, out, format, columns, cases })
+        Ok(study)
+    }
+
+    /// Whether the surface of each case is made.
+    pub fn makes_surface(&self) -> bool {
+        self.commands.0.len() > 1
+    }
+
+    /// The entries of the case of a number.
+    fn entries(&self, number: usize) -> impl Iterator<Item = &(String, Value)> {
+        self.fixed.iter().chain(combination(&self.lists, number))
+    }
+
+    /// The scenes of a case: of its command, before it of the command that makes its surface, if one does. Files of
+    /// results are named, and not written.
+    pub fn scenes(&self, number: usize, tool: &Parser) -> Result<Vec<SceneFile>, String> {
+        let made = self.cases[number].rows.with_extension("npz");
+        let scene = |(k, command): (usize, &'static Command)| {
+            let reader = Reader { command, tool, folder: &self.folder };
+            let is_own = |(name, _): &&(String, Value)| self.commands.option(name).is_some_and(|(of, _)| of == k);
+            let mut given = reader.read(self.entries(number).filter(is_own))?;
+            let files = [("out", Path::new("table.csv"))]
+                .into_iter()
+                .chain(self.makes_surface().then_some(("heights", &*made)));
+            for (name, file) in files {
+                if let Some(key) = command.keys().find(|key| key.name == name) {
+                    given.add(key, vec![file.into()], false).map_err(|(_, reason)| reason)?;
+                }
+            }
+            Ok(SceneFile { command: command.name, given: reader.complete(&given)? })
+        };
+        self.commands.0.iter().copied().enumerate().map(scene).collect()
     }
 
     /// The values of a case in words, for people.
@@ -189,50 +220,33 @@ fn combination(lists: &[Vec<Choice>], number: usize) -> impl Iterator<Item = &(S
     lists.iter().enumerate().flat_map(move |(k, list)| &list[number / place(k) % list.len()])
 }
 
-/// The command of a case, before it that which makes its surface, if one does.
-struct Commands(Vec<Command>);
+/// The command of a case, before it the command that makes its surface, if one does.
+struct Commands(Vec<&'static Command>);
 
 impl Commands {
-    /// The option of a name, with the number of its command.
-    fn option(&self, name: &str) -> Option<(usize, &Arg)> {
-        let options = |(k, command)| Command::get_arguments(command).map(move |arg| (k, arg));
-        self.0.iter().enumerate().flat_map(options).find(|(_, arg)| key(arg).as_deref() == Some(name))
+    /// The key of an option, with the number of its command.
+    fn option(&self, name: &str) -> Option<(usize, &'static Key)> {
+        let keys = |(k, command): (_, &&'static Command)| command.keys().map(move |key| (k, key));
+        self.0.iter().enumerate().flat_map(keys).find(|(_, key)| key.dashed() == name)
     }
 
     /// Refuses what is no option of theirs, or is not for a study, as files next to the rows.
     fn check(&self, name: &str) -> Result<(), String> {
-        let is_own = |arg: &Arg| {
-            let (id, key) = (arg.get_id().as_str(), key(arg));
-            let is_key = Key::named(id).is_some() || id == "strict";
-            key.is_some_and(|key| OWN.contains(&key.as_str())) || section(arg) == "output" && !is_key
+        let is_own = |key: &Key| {
+            let is_file = key.section == "Output" && Key::named(key.name).is_none() && key.name != "strict";
+            OWN.contains(&key.name) || is_file
         };
-        if let Some((_, arg)) = self.option(name) {
-            let own = || format!("{name} is no option of a study: remove it");
-            return if is_own(arg) { Err(own()) } else { Ok(()) };
+        match self.option(name) {
+            Some((_, key)) if is_own(key) => return Err(format!("{name} is no option of a study: remove it")),
+            Some(_) => return Ok(()),
+            None => {}
         }
-        let options = self.0.iter().flat_map(Command::get_arguments).filter(|arg| !is_own(arg));
-        let known: Vec<_> = options.filter_map(key).collect();
+        let keys = self.0.iter().flat_map(|command| command.keys()).filter(|key| !is_own(key));
+        let known: Vec<_> = keys.map(Key::dashed).collect();
         let meant = similar(name, known.iter().map(String::as_str));
         let hint = meant.map_or("remove it".to_owned(), |meant| format!("did you mean {meant}?"));
-        let names: Vec<_> = self.0.iter().map(Command::get_name).collect();
+        let names: Vec<_> = self.0.iter().map(|command| command.name).collect();
         Err(format!("{name} is no option of {}: {hint}", names.join(" or ")))
-    }
-
-    /// The words of both commands; the first makes the surface, if one does, next to the rows.
-    fn words(&self, entries: &[&(String, Value)], folder: &Path, rows: &Path) -> Result<Vec<Vec<OsString>>, String> {
-        let begun = |command: &Command| {
-            let out = command.get_arguments().any(|arg| arg.get_id() == "out").then_some("--out=table.csv");
-            ["asperity", command.get_name()].into_iter().chain(out).map(OsString::from).collect()
-        };
-        let mut words: Vec<Vec<_>> = self.0.iter().map(begun).collect();
-        if let [_, words] = &mut words[..] {
-            words.extend(["--heights".into(), rows.with_extension("npz").into()]);
-        }
-        for (name, value) in entries {
-            let Some((of, _)) = self.option(name) else { continue };
-            words[of].extend(spelled(name, value, &self.0[of], folder)?);
-        }
-        Ok(words)
     }
 
     /// All that the rows depend on: options, contents of files, and the version of the tool.
@@ -244,15 +258,17 @@ impl Commands {
     ) -> asperity::Result<Hash> {
         let mut words = Vec::new();
         for (name, value) in entries {
-            let Some((of, option)) = self.option(name) else { continue };
+            let Some((of, key)) = self.option(name) else { continue };
             let value = match value {
-                Value::String(file) if is_path(option) => contents(&folder.join(file), files)?.to_string(),
+                Value::String(file) if matches!(key.kind.values, Values::File) => {
+                    contents(&folder.join(file), files)?.to_string()
+                }
                 value => text(value),
             };
             words.push(format!("{} {name} {value}", of + 1 < self.0.len()));
         }
         words.sort();
-        let before = [env!("CARGO_PKG_VERSION"), self.0[self.0.len() - 1].get_name()];
+        let before = [env!("CARGO_PKG_VERSION"), self.0[self.0.len() - 1].name];
         let words = before.into_iter().chain(words.iter().map(String::as_str));
         Ok(words.fold(Hash::NEW, |hash, word| hash.of(word.as_bytes()).of(b"\n")))
     }

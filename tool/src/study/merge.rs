@@ -32,7 +32,7 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
             let converged = row.get("status").is_some_and(|status| status == "converged");
             unconverged += usize::from(!converged || row.get("reached") == Some(&Value::Bool(false)));
             // a surface that was made has the name of no file
-            let told = columns.iter().filter(|name| study.cases[0].words.len() == 1 || *name != "heights");
+            let told = columns.iter().filter(|name| !study.makes_surface() || *name != "heights");
             let cells = told.map(|name| (name.clone(), row.remove(name).unwrap_or_default()));
             let number = std::iter::once((CASE.to_owned(), (k + 1).into()));
             let row = number.chain(own.clone()).chain(cells).collect::<Map<_, _>>();

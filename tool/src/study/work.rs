@@ -12,15 +12,15 @@ use asperity::Error;
 use asperity_scene::Hash;
 
 use super::case::Run;
-use super::cases::{Case, Study};
+use super::cases::Study;
 use crate::interruption::stands;
 use crate::journal::{is_whole, state_path};
 use crate::outcome::Outcome;
 use crate::output::{with_suffix, write_text};
-use crate::printing::{Printing, Warn, complain, on_one_line, on_terminal};
+use crate::printing::{Printing, Warn, complain, on_terminal};
 use crate::processes::Processes;
 use crate::threads;
-use crate::{Command, parsed, surface, warnings};
+use crate::{named, surface, warnings};
 
 /// The folder of the cases, next to the table.
 pub fn folder(table: &Path) -> PathBuf {
@@ -88,14 +88,14 @@ pub fn solve(
     stand(0);
     let progress = Mutex::new(Progress { left, ..Progress::default() });
     let progress = || progress.lock().unwrap_or_else(PoisonError::into_inner);
-    let solve = |tool: &mut clap::Command, number: usize, wait: bool| {
+    let solve = |number: usize, wait: bool| {
         let case = &study.cases[number];
         let (name, mut warnings) = (format!("case {}: {}", number + 1, study.told(case)), Vec::new());
         if wait {
             printing.say(&format!("{name} is solved by another run: waiting for it"));
         }
         let mut warn = |line: String| warnings.push(on_terminal(&line));
-        let solved = solved(tool, study, case, processes, wait, &mut warn);
+        let solved = solved(tool, study, number, processes, wait, &mut warn);
         let mut progress = progress();
         match solved.map_err(|error| on_terminal(&error.to_string())) {
             Ok(false) => progress.elsewhere.push(number),
@@ -117,14 +117,13 @@ pub fn solve(
         }
     };
     let work = || {
-        let mut tool = tool.clone();
         let next = || progress().left.pop_front();
         while let Some(number) = next() {
-            solve(&mut tool, number, false);
+            solve(number, false);
         }
         let next = || progress().elsewhere.pop();
         while let Some(number) = next() {
-            solve(&mut tool, number, true);
+            solve(number, true);
         }
     };
     thread::scope(|scope| {
@@ -149,14 +148,15 @@ pub fn solve(
 /// Solves a case that no other run has solved by then, and tells its warnings; false if another run is solving it, unless
 /// this one is to `wait`.
 fn solved(
-    tool: &mut clap::Command,
+    tool: &clap::Command,
     study: &Study,
-    case: &Case,
+    number: usize,
     processes: &Processes,
     wait: bool,
     warn: Warn<'_>,
 ) -> Outcome<bool> {
-    let (rows, state, lock) = (&case.rows, state_path(&case.rows), case.rows.with_extension("lock"));
+    let rows = &study.cases[number].rows;
+    let (state, lock) = (state_path(rows), rows.with_extension("lock"));
     let file = File::create(&lock).map_err(|e| format!("its lock cannot be written: {e}"))?;
     // not every file system has locks
     if let Err(TryLockError::WouldBlock) = if wait { file.lock().map_err(TryLockError::Error) } else { file.try_lock() }
@@ -170,18 +170,11 @@ fn solved(
         if force && begun && fs::metadata(rows).is_ok_and(|file| file.len() > 0) {
             warn("its rows were damaged, and it was solved again".to_owned());
         }
-        let mut commands = Vec::new();
-        for words in &case.words {
-            commands.push(parsed(tool, words).map_err(|error| on_one_line(&error))?);
-        }
-        let (command, scene) = commands.pop().ok_or("it has no command")?;
-        let made = match commands.pop() {
-            Some((Command::Surface(options), scene)) => Some(surface::map(&options, &scene)?),
-            _ => None,
-        };
-        let ((problem, strictness), format, out) = (command.problem()?, study.format, rows.clone());
-        let command = &*study.command;
-        Run { command, problem, strictness, scene, processes, out, format, force }.solve(made, warn)?;
+        let mut scenes = study.scenes(number, tool)?;
+        let scene = scenes.pop().ok_or("it has no command")?;
+        let made = scenes.pop().map(|scene| surface::map(&scene.given)).transpose()?;
+        let (problem, format, out) = ((named(scene.command)?.problem)(&scene.given)?, study.format, rows.clone());
+        Run { problem, scene, processes, out, format, force }.solve(made, warn)?;
         write_text(&sum_path(rows), &checksum(rows)?)?;
         // last: what is left with it is not done
         if let Err(error) = fs::remove_file(state)

@@ -1,10 +1,9 @@
 //! The law of an interface over the load, as codes of finite elements read it.
 
 use asperity::Surface;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::key::{Conductors, LEAKAGE, Units, peak};
+use crate::key::{Conductors, LEAKAGE, Units, choice, peak};
 
 /// The columns of a table of an interface, before those for what is asked for after each state.
 pub(crate) const COLUMNS: &str = "mean_pressure mean_gap closure contact_fraction corrected_contact_fraction \
@@ -12,17 +11,16 @@ pub(crate) const COLUMNS: &str = "mean_pressure mean_gap closure contact_fractio
 /// Those behind them.
 pub(crate) const OUTCOME: &str = "branch relative_error status";
 
-/// A code of finite elements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum Code {
-    /// Abaqus: a surface interaction, .inp
-    Abaqus,
-    /// COMSOL Multiphysics: interpolation functions, .txt
-    Comsol,
-    /// MOOSE: data files of PiecewiseLinear, .csv
-    Moose,
+choice! {
+    /// A code of finite elements.
+    Code {
+        /// Abaqus: a surface interaction, .inp
+        Abaqus = "abaqus",
+        /// COMSOL Multiphysics: interpolation functions, .txt
+        Comsol = "comsol",
+        /// MOOSE: data files of PiecewiseLinear, .csv
+        Moose = "moose",
+    }
 }
 
 /// The mean gap at which the undeformed surfaces first touch, from which the closure counts; of the nodes that are there,
@@ -45,9 +43,6 @@ struct Function {
 }
 
 impl Code {
-    /// All codes.
-    pub const ALL: [Self; 3] = [Self::Abaqus, Self::Comsol, Self::Moose];
-
     /// The ends of the names of all files that it may have.
     pub fn endings(self) -> &'static [&'static str] {
         match self {

@@ -27,7 +27,7 @@ impl Range {
     pub const ACUTE: Self =
         Self { allowed: |v| v > 0.0 && v < 90.0, words: "a number of degrees, positive and below 90" };
     /// A resolution in pixels per inch.
-    const RESOLUTION: Self =
+    pub const RESOLUTION: Self =
         Self { allowed: |v| (36.0..=1200.0).contains(&v), words: "a number of pixels per inch, from 36 to 1200" };
 
     /// Whether a number is in the range.
@@ -71,33 +71,5 @@ pub fn share(text: &str) -> Result<f64, String> {
     Range::SHARE.number(text)
 }
 
-/// A resolution in pixels per inch.
-///
-/// # Errors
-/// What it must be.
-pub fn resolution(text: &str) -> Result<f64, String> {
-    Range::RESOLUTION.number(text)
-}
-
-/// A number of threads; more than 1024 are taken for a slip of the pen.
-///
-/// # Errors
-/// What it must be.
-pub fn threads(text: &str) -> Result<usize, String> {
-    let found = text.trim().parse().ok().filter(|threads| (1..=1024).contains(threads));
-    found.ok_or_else(|| format!("it must be {THREADS}"))
-}
-
 /// A number of threads in words.
 pub(crate) const THREADS: &str = "from 1 to 1024; leave the option out for one per core";
-
-/// A number of bins; more than a million are taken for a slip of the pen.
-///
-/// # Errors
-/// What it must be.
-pub fn bins(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(bins @ 1..=1_000_000) => Ok(bins),
-        _ => Err("it must be a whole number from 1 to 1000000".to_owned()),
-    }
-}

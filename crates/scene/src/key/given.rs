@@ -119,17 +119,10 @@ impl Given {
                     return Err(format!("{name} is {}: it must be {count}, {symbols}", shortened(&texts.join(", "))));
                 }
             }
-            let of =
-                |text: &String| key.value(text).map_err(|reason| format!("{name} is {}: {reason}", shortened(text)));
-            let read = texts.iter().map(of).collect::<Result<Vec<_>, _>>()?;
-            given.insert(key, read, texts.into_iter().map(Into::into).collect(), false);
+            let told = |(text, reason): (String, String)| format!("{name} is {}: {reason}", shortened(&text));
+            given.add(key, texts.into_iter().map(Into::into).collect(), false).map_err(told)?;
         }
-        for key in known.iter().filter(|key| key.kind.dimension().is_some()) {
-            let default = key.kind.default.filter(|_| given.get(key.name).is_none());
-            if let Some((text, read)) = default.and_then(|text| Some((text, key.value(text).ok()?))) {
-                given.insert(key, vec![read], vec![text.into()], true);
-            }
-        }
+        known.iter().filter(|key| key.kind.dimension().is_some()).for_each(|key| given.add_default(key));
         let is_lacking = |need: &&&str| known.iter().any(|key| key.name == **need) && !given.has(need);
         for key in given.0.iter().map(|entry| entry.key) {
             if let Some(need) = key.kind.needs.iter().find(is_lacking) {
@@ -139,10 +132,18 @@ impl Given {
         Ok(given)
     }
 
-    /// Adds what was given for a key.
-    pub(crate) fn insert(&mut self, key: &'static Key, mut read: Vec<Read>, typed: Vec<OsString>, is_default: bool) {
+    /// Adds what was typed for a key.
+    ///
+    /// # Errors
+    /// The text that is no value of the key, and what it must be.
+    pub fn add(&mut self, key: &'static Key, typed: Vec<OsString>, is_default: bool) -> Result<(), (String, String)> {
+        let value = |text: &OsString| {
+            let text = text.to_string_lossy();
+            key.value(&text).map_err(|reason| (text.into_owned(), reason))
+        };
+        let mut read = typed.iter().map(value).collect::<Result<Vec<_>, _>>()?;
         let read = match (key.kind.is_several(), read.len()) {
-            (_, 0) => return,
+            (_, 0) => return Ok(()),
             (false, _) => read.swap_remove(0),
             (true, _) => Read {
                 numbers: read.iter().flat_map(|read| read.numbers.iter().copied()).collect(),
@@ -150,6 +151,30 @@ impl Given {
             },
         };
         self.0.push(Entry { key, read, typed, is_default });
+        Ok(())
+    }
+
+    /// Adds the default of a key that is not given.
+    fn add_default(&mut self, key: &'static Key) {
+        if let (None, Some(default)) = (self.get(key.name), key.kind.default) {
+            // a default is a value of its key
+            let _ = self.add(key, vec![default.into()], true);
+        }
+    }
+
+    /// The same in the order of all keys, with their defaults.
+    pub fn complete(&self, keys: impl IntoIterator<Item = &'static Key>) -> Self {
+        let mut all = Self::default();
+        for key in keys {
+            all.0.extend(self.get(key.name).cloned());
+            all.add_default(key);
+        }
+        all
+    }
+
+    /// What is given, with the texts of each key.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static Key, &[OsString])> {
+        self.0.iter().map(|entry| (entry.key, &entry.typed[..]))
     }
 
     /// What was given for several lists of keys.
@@ -167,17 +192,18 @@ impl Given {
     }
 
     /// Whether a key is given, and not by default.
-    pub(crate) fn has(&self, name: &str) -> bool {
+    pub fn has(&self, name: &str) -> bool {
         self.get(name).is_some_and(|entry| !entry.is_default)
     }
 
-    /// The first key that is given with another value than its default.
-    pub fn first(&self) -> Option<&'static str> {
+    /// The first key of a list that is given with another value than its default.
+    pub fn first<L: Keys>(&self) -> Option<&'static str> {
         let usual = |entry: &Entry| {
             let default = entry.key.kind.default.and_then(|default| entry.key.value(default).ok());
             default.is_some_and(|default| default == entry.read)
         };
-        self.0.iter().find(|entry| !usual(entry)).map(|entry| entry.key.name)
+        let of_list = |entry: &&Entry| L::KEYS.iter().any(|key| key.name == entry.key.name);
+        self.0.iter().filter(of_list).find(|entry| !usual(entry)).map(|entry| entry.key.name)
     }
 
     /// What was given for a list of keys.
@@ -186,7 +212,7 @@ impl Given {
     }
 
     /// What was given for a key, in the form of a field.
-    pub(crate) fn taken<T: Taken>(&self, name: &str) -> T {
+    pub fn taken<T: Taken>(&self, name: &str) -> T {
         T::taken(self, name)
     }
 
@@ -204,7 +230,7 @@ impl Given {
     }
 
     /// The word of a key.
-    pub(crate) fn word(&self, name: &str) -> Option<&str> {
+    pub fn word(&self, name: &str) -> Option<&str> {
         self.value(name)?.as_str()
     }
 
@@ -283,11 +309,49 @@ taken! {
     Option<bool>: Denial = |value| value?.as_bool();
 }
 
+impl Taken for PathBuf {
+    const FORM: Form = Form::File;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        Option::taken(given, key).unwrap_or_default()
+    }
+}
+
 impl Taken for Option<PathBuf> {
     const FORM: Form = Form::File;
 
     fn taken(given: &Given, key: &str) -> Self {
         given.get(key)?.typed.first().map(PathBuf::from)
+    }
+}
+
+/// An enumeration of words.
+pub trait Choice: Default {
+    /// The variant of a word.
+    fn named(word: &str) -> Option<Self>;
+}
+
+impl<C: Choice> Taken for C {
+    const FORM: Form = Form::Word;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        Option::taken(given, key).unwrap_or_default()
+    }
+}
+
+impl<C: Choice> Taken for Option<C> {
+    const FORM: Form = Form::Word;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        C::named(given.word(key)?)
+    }
+}
+
+impl<C: Choice> Taken for Vec<C> {
+    const FORM: Form = Form::Words;
+
+    fn taken(given: &Given, key: &str) -> Self {
+        Vec::<String>::taken(given, key).iter().filter_map(|word| C::named(word)).collect()
     }
 }
 

@@ -26,6 +26,8 @@ pub struct Kind {
     pub commas: bool,
     /// Whether it has to be given.
     pub required: bool,
+    /// Whether its value stands without the name.
+    pub positional: bool,
 }
 
 /// What a value of a key is.
@@ -76,7 +78,7 @@ pub enum Form {
 
 impl Form {
     /// Whether it is another one.
-    pub(crate) const fn is(self, other: Self) -> bool {
+    pub const fn is(self, other: Self) -> bool {
         self as u8 == other as u8
     }
 }
@@ -92,119 +94,140 @@ pub struct Word {
 
 impl Word {
     /// Words that go without saying.
-    pub(crate) fn all(names: &[&'static str]) -> Vec<Self> {
+    pub fn all(names: &[&'static str]) -> Vec<Self> {
         names.iter().map(|name| Self { name, help: "" }).collect()
     }
 }
 
 impl Kind {
     const fn new(values: Values, symbols: &'static [&'static str]) -> Self {
-        let (default, alone, replaces, commas, required) = (None, None, None, false, false);
-        Self { values, symbols, count: (1, 1), default, alone, excludes: &[], needs: &[], replaces, commas, required }
+        let (default, alone, replaces, commas, required, positional) = (None, None, None, false, false, false);
+        let (count, excludes, needs): (_, &[&str], &[&str]) = ((1, 1), &[], &[]);
+        Self { values, symbols, count, default, alone, excludes, needs, replaces, commas, required, positional }
     }
 
     /// A quantity.
-    pub(crate) const fn quantity(dimension: Dimension, range: Range, symbol: &'static [&'static str]) -> Self {
+    pub const fn quantity(dimension: Dimension, range: Range, symbol: &'static [&'static str]) -> Self {
         Self::new(Values::Quantity(dimension, range), symbol)
     }
 
     /// A number.
-    pub(crate) const fn number(range: Range, symbol: &'static [&'static str]) -> Self {
+    pub const fn number(range: Range, symbol: &'static [&'static str]) -> Self {
         Self::new(Values::Number(range), symbol)
     }
 
     /// A whole number.
-    pub(crate) const fn whole(symbol: &'static [&'static str]) -> Self {
+    pub const fn whole(symbol: &'static [&'static str]) -> Self {
         Self::new(Values::Whole(0, u64::MAX, "a whole number from 0"), symbol)
     }
 
     /// A number of nodes along a side; more than 2²⁴ are taken for a slip of the pen.
-    pub(crate) const fn nodes(symbol: &'static [&'static str]) -> Self {
+    pub const fn nodes(symbol: &'static [&'static str]) -> Self {
         Self::new(Values::Whole(1, 1 << 24, "a whole number from 1 to 16777216"), symbol)
     }
 
     /// A number of threads; more than 1024 are taken for a slip of the pen.
-    pub(crate) const fn threads() -> Self {
+    pub const fn threads() -> Self {
         Self::new(Values::Whole(1, 1024, THREADS), &["N"])
     }
 
+    /// A number of bins; more than a million are taken for a slip of the pen.
+    pub const fn bins(symbol: &'static [&'static str]) -> Self {
+        Self::new(Values::Whole(1, 1_000_000, "a whole number from 1 to 1000000"), symbol)
+    }
+
     /// A list of quantities, and of ranges of them.
-    pub(crate) const fn quantities(dimension: Dimension, range: Range) -> Self {
+    pub const fn quantities(dimension: Dimension, range: Range) -> Self {
         Self::new(Values::Quantities(dimension, range), &["LIST"])
     }
 
     /// A list of numbers, and of ranges of them.
-    pub(crate) const fn numbers(range: Range) -> Self {
+    pub const fn numbers(range: Range) -> Self {
         Self::new(Values::Numbers(range), &["LIST"])
     }
 
     /// One of some words.
-    pub(crate) const fn word(words: fn() -> Vec<Word>, symbol: &'static [&'static str]) -> Self {
+    pub const fn word(words: fn() -> Vec<Word>, symbol: &'static [&'static str]) -> Self {
         Self::new(Values::Word(words), symbol)
     }
 
     /// A text.
-    pub(crate) const fn text(check: fn(&str) -> Result<(), String>, symbol: &'static [&'static str]) -> Self {
+    pub const fn text(check: fn(&str) -> Result<(), String>, symbol: &'static [&'static str]) -> Self {
         Self::new(Values::Text(check), symbol)
     }
 
     /// A truth value.
-    pub(crate) const fn switch() -> Self {
+    pub const fn switch() -> Self {
         Self::new(Values::Switch, &[])
     }
 
     /// The name of a file.
-    pub(crate) const fn file() -> Self {
+    pub const fn file() -> Self {
         Self::new(Values::File, &["FILE"])
     }
 
+    /// The name of a folder.
+    pub const fn folder() -> Self {
+        Self::new(Values::File, &["DIR"])
+    }
+
+    /// The key again and again.
+    pub const fn again(self) -> Self {
+        Self { count: (1, usize::MAX), ..self }
+    }
+
     /// Several values, from so many on.
-    pub(crate) const fn from(self, least: usize) -> Self {
+    pub const fn from(self, least: usize) -> Self {
         Self { count: (least, self.symbols.len()), ..self }
     }
 
     /// As many values as symbols.
-    pub(crate) const fn each(self) -> Self {
+    pub const fn each(self) -> Self {
         self.from(self.symbols.len())
     }
 
     /// Values with commas between, or the key again.
-    pub(crate) const fn commas(self) -> Self {
+    pub const fn commas(self) -> Self {
         Self { commas: true, ..self }
     }
 
     /// The value if none is given.
-    pub(crate) const fn or(self, default: &'static str) -> Self {
+    pub const fn or(self, default: &'static str) -> Self {
         Self { default: Some(default), ..self }
     }
 
     /// The value if the key stands alone.
-    pub(crate) const fn alone(self, value: &'static str) -> Self {
+    pub const fn alone(self, value: &'static str) -> Self {
         Self { alone: Some(value), count: (0, 1), ..self }
     }
 
     /// The keys with which it may not stand.
-    pub(crate) const fn excludes(self, excludes: &'static [&'static str]) -> Self {
+    pub const fn excludes(self, excludes: &'static [&'static str]) -> Self {
         Self { excludes, ..self }
     }
 
     /// The keys without which it may not stand.
-    pub(crate) const fn needs(self, needs: &'static [&'static str]) -> Self {
+    pub const fn needs(self, needs: &'static [&'static str]) -> Self {
         Self { needs, ..self }
     }
 
     /// The key that it replaces, if it stands behind that key.
-    pub(crate) const fn replaces(self, key: &'static str) -> Self {
+    pub const fn replaces(self, key: &'static str) -> Self {
         Self { replaces: Some(key), ..self }
     }
 
     /// A key that has to be given.
-    pub(crate) const fn required(self) -> Self {
+    pub const fn required(self) -> Self {
         Self { required: true, ..self }
     }
 
+    /// A value without the name of the key, of this symbol in the help.
+    pub const fn positional(self, symbols: &'static [&'static str]) -> Self {
+        Self { positional: true, symbols, ..self }
+    }
+
     /// The form of what is given.
-    pub(crate) const fn form(&self) -> Form {
+    pub const fn form(&self) -> Form {
         let is_several = self.count.1 > 1 || self.commas;
         match self.values {
             Values::Switch if self.replaces.is_some() => Form::Denial,

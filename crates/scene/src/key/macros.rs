@@ -2,30 +2,32 @@
 
 /// A list of keys as a struct of what was given for them: the names with their help, and the kinds of their values, by
 /// sections. A field whose type does not fit the kind of its values does not compile.
+#[macro_export]
 macro_rules! keys {
-    ($(#[$about:meta])* $list:ident {
-        $($section:literal { $($(#[doc = $help:literal])+ $name:ident: $type:ty = $kind:expr,)+ })+
+    ($(#[doc = $about:literal])+ $(#[derive($($trait:ident),+)])? $list:ident {
+        $($section:literal { $($(#[doc = $help:literal])+ $name:ident: $type:ty = $kind:expr,)+ })*
     }) => {
-        $(#[$about])*
-        #[derive(Clone, Debug)]
+        $(#[doc = $about])+
+        #[derive(Clone, Debug $($(, $trait)+)?)]
         pub struct $list {
-            $($($(#[doc = $help])+ pub $name: $type,)+)+
+            $($($(#[doc = $help])+ pub $name: $type,)+)*
         }
 
-        impl $crate::key::Keys for $list {
-            const KEYS: &'static [$crate::key::Key] = &[$($($crate::key::Key {
-                name: stringify!($name),
+        impl $crate::Keys for $list {
+            const ABOUT: &'static str = concat!($($about, "\n"),+);
+            const KEYS: &'static [$crate::Key] = &[$($($crate::Key {
+                name: $crate::Key::name_of(stringify!($name)),
                 help: concat!($($help),+),
                 section: $section,
                 kind: {
                     let kind = $kind;
-                    assert!(<$type as $crate::key::Taken>::FORM.is(kind.form()));
+                    assert!(<$type as $crate::Taken>::FORM.is(kind.form()));
                     kind
                 },
-            },)+)+];
+            },)+)*];
 
-            fn of(given: &$crate::key::Given) -> Self {
-                Self { $($($name: given.taken(stringify!($name)),)+)+ }
+            fn of(given: &$crate::Given) -> Self {
+                Self { $($($name: given.taken($crate::Key::name_of(stringify!($name))),)+)* }
             }
         }
     };
@@ -33,6 +35,7 @@ macro_rules! keys {
 pub(crate) use keys;
 
 /// An enumeration of words: their names, with what each stands for. The first is the default.
+#[macro_export]
 macro_rules! choice {
     ($(#[$about:meta])* $name:ident { $($(#[doc = $help:literal])+ $variant:ident = $word:literal,)+ }) => {
         $(#[$about])*
@@ -42,9 +45,12 @@ macro_rules! choice {
         }
 
         impl $name {
+            /// All variants.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+
             /// All words.
-            pub fn words() -> Vec<$crate::key::Word> {
-                vec![$($crate::key::Word { name: $word, help: concat!($($help),+) }),+]
+            pub fn words() -> Vec<$crate::Word> {
+                vec![$($crate::Word { name: $word, help: concat!($($help),+) }),+]
             }
 
             /// The word.
@@ -55,16 +61,13 @@ macro_rules! choice {
 
         impl Default for $name {
             fn default() -> Self {
-                [$(Self::$variant),+][0]
+                Self::ALL[0]
             }
         }
 
-        impl $crate::key::Taken for Option<$name> {
-            const FORM: $crate::key::Form = $crate::key::Form::Word;
-
-            fn taken(given: &$crate::key::Given, key: &str) -> Self {
-                let word = given.word(key)?;
-                [$($name::$variant),+].into_iter().find(|known| known.name() == word)
+        impl $crate::Choice for $name {
+            fn named(word: &str) -> Option<Self> {
+                Self::ALL.iter().find(|known| known.name() == word).copied()
             }
         }
 

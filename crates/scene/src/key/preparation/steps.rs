@@ -30,7 +30,7 @@ keys! {
             /// for large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
             align_rows: Option<String> = Kind::text(|text| RowAlignment::from_str(text).map(drop), &["METHOD"]),
             /// Direction of the scan lines of {align_rows} and {remove_scars} [default: x]
-            scan_axis: Option<String> = Kind::word(|| Word::all(&ScanAxis::NAMES), &["SCAN_AXIS"]).needs(&["scan_lines"]),
+            scan_axis: Option<String> = Kind::word(|| Word::all(&ScanAxis::NAMES), &["SCAN_AXIS"]).needs(&["align_rows|remove_scars|clean"]),
             /// Replace scars by the heights around them. Scars are pieces of one to four scan lines, at least 16 nodes
             /// long, that are everywhere higher, or everywhere lower, than both neighbouring lines, by more than this
             /// many rms differences of neighbouring lines [default: 0.667 if {remove_scars} has no value]
@@ -81,8 +81,6 @@ keys! {
 }
 
 impl StepKeys {
-    /// The steps that go along scan lines.
-    pub const OF_LINES: [&str; 3] = ["align_rows", "remove_scars", "clean"];
     /// The parts of a cleaning, in their order.
     pub const OF_CLEAN: [&str; 5] = ["rows", "scars", "spikes", "plane", "holes"];
 }
