@@ -97,15 +97,12 @@ pub fn scene(tool: &clap::Command, command: &Command, matches: &ArgMatches) -> O
 fn replaced(command: &Command, beside: &Given) -> Vec<&'static str> {
     let mut replaced: Vec<_> =
         beside.entries().flat_map(|(key, _)| [Some(key.name), key.kind.replaces]).flatten().collect();
-    let alternatives = (command.one_of)();
-    if alternatives.iter().any(|key| beside.has(key)) {
-        // the position goes with the spring
-        replaced.extend(
-            alternatives
-                .iter()
-                .copied()
-                .chain(["spring_position", "spring_positions"].into_iter().filter(|_| !beside.has("spring_stiffness"))),
-        );
+    let one_of = (command.one_of)();
+    if one_of.iter().any(|key| beside.has(key)) {
+        // what only one of them needs goes with it, as the position with the spring
+        let goes = |need: &&'static str| one_of.contains(need) && !beside.has(need);
+        replaced.extend(command.keys().filter(|key| key.kind.needs.iter().any(goes)).map(|key| key.name));
+        replaced.extend(one_of);
     }
     if beside.word("law") == Some("none") {
         replaced.extend(AdhesionKeys::KEYS.iter().map(|key| key.name));

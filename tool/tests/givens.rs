@@ -24,7 +24,7 @@ struct Row {
     name: String,
     map: String,
     given: Map<String, Value>,
-    /// Files besides that of the map, which a page does not have
+    /// Files besides that of the map, and findings, which a page does not have
     #[serde(default)]
     files: Map<String, Value>,
     /// The refusal, with keys in braces; none where all faces solve
