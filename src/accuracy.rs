@@ -109,7 +109,7 @@ impl Quantity {
 
     /// Refuses a quantity that there is not with a boundary.
     fn check_in(self, boundary: Boundary) -> Result<()> {
-        if self == Self::Approach && boundary == Boundary::Periodic {
+        if self == Self::Approach && boundary.is_periodic() {
             let reason = "bodies in a periodic cell have none: ask for that of the gap, or of the area";
             return Err(Error::Unsuited { what: "accuracy of the approach", reason });
         }

@@ -60,7 +60,7 @@ impl<T: Real> Solution<T> {
     pub fn regions(&self) -> Array2<Region> {
         let contact = self.contact_map();
         let on_grid = on_grid(&*self.law, &self.grid, self.report.modulus);
-        let periodic = self.report.boundary == Boundary::Periodic;
+        let periodic = self.report.boundary.is_periodic();
         let law = on_grid.as_deref().unwrap_or(&*self.law);
         let attracts = attracting(&contact, self.gap.view(), (&self.grid, periodic), law);
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
@@ -243,7 +243,7 @@ impl ContactStatistics {
         let law = on_grid.as_deref().unwrap_or(law);
         let contact = contact_map(gap, contact_pressure);
         let facing = gap.iter().filter(|gap| gap.is_finite()).count();
-        let periodic = boundary == Boundary::Periodic;
+        let periodic = boundary.is_periodic();
         let outline = Outline { gap, contact_pressure, map: contact.view(), grid, periodic, modulus };
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, .. } =
             ContactArea::within_edge(&outline, facing);

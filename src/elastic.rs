@@ -191,6 +191,10 @@ pub enum Boundary {
 names!(Boundary { Periodic = "periodic", Free = "free" });
 
 impl Boundary {
+    pub(crate) fn is_periodic(self) -> bool {
+        matches!(self, Self::Periodic)
+    }
+
     /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell.
     pub(crate) fn mean_compliance(self) -> f64 {
         match self {

@@ -8,13 +8,12 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::constraint::ContactConstraint;
-use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Criterion, Iteration, Observer, Place, Report, Solution, Solved, Solver, Start, Status, check_hardness,
-    check_wall, refuse_springs,
+    Begin, Criterion, Iteration, Observer, Place, ROUNDINGS, Report, Solution, Solved, Solver, Start, Status,
+    check_hardness, check_wall, refuse_springs,
 };
 use crate::stability::Watch;
 
@@ -142,9 +141,6 @@ const SHARE: f64 = 0.01;
 /// The largest such tolerance: less accurate states jump too early.
 const LOOSEST: f64 = 1e-4;
 
-/// The roundings that the sums of the energy may have.
-const ROUNDINGS: f64 = 8.0;
-
 /// What a path is followed with.
 pub struct Bench<'a, T: Real> {
     solver: &'a mut Solver<dyn ContactConstraint<T>>,
@@ -227,7 +223,7 @@ impl<T: Real> Path<T> {
         for &load in &self.legs {
             check_hardness(law, flat.load(load, wall)?, flat, wall)?;
         }
-        if flat.window.is_some() && flat.boundary == Boundary::Periodic {
+        if flat.window.is_some() && flat.boundary.is_periodic() {
             let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                           solve at one load after the other, as Sweep does, or take a free half-space";
             return Err(Error::Unsuited { what: "path", reason });

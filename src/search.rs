@@ -8,7 +8,9 @@ use crate::constraint::{ContactConstraint, Wall};
 use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::Real;
-use crate::solver::{Begin, Branch, Iteration, Method, Observer, Place, Solution, Solved, Solver, Start, Status};
+use crate::solver::{
+    Begin, Branch, Iteration, Method, Observer, Place, ROUGHLY, Solution, Solved, Solver, Start, Status,
+};
 
 mod axis;
 mod bracket;
@@ -16,8 +18,7 @@ mod bracket;
 use axis::Axis;
 use bracket::{Bracket, Point};
 
-/// The error to which a state is solved that is this many times the tolerance from the wanted one.
-const ROUGHLY: f64 = 1e-3;
+/// The distance from the wanted contact, in units of the tolerance, from which on a state is solved roughly.
 const FAR: f64 = 2.0;
 
 /// The growth of the logarithm of the load above which a solve without adhesion starts anew.

@@ -40,6 +40,7 @@ pub use descent::rey2017::Criterion;
 pub(crate) use driver::{Job, Observer};
 pub(crate) use minimisation::Nearness;
 pub(crate) use place::Place;
+pub(crate) use plan::ROUGHLY;
 pub(crate) use potential::{Least, Of, Potential, bounded};
 pub(crate) use precision::{in_double, in_single};
 pub(crate) use report::Solved;
@@ -48,6 +49,7 @@ pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
 pub(crate) use tension::STRONGEST;
 pub(crate) use unload::unload;
+pub(crate) use work::ROUNDINGS;
 
 /// The method of iteration, one of two.
 #[non_exhaustive]

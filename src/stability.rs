@@ -8,7 +8,7 @@ use ndarray::Array2;
 use crate::adhesion::{AdhesionLaw, Neighbourhood, Touched};
 
 use crate::constraint::{ContactConstraint, Projection, Wall};
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
 use crate::names::names;
@@ -315,7 +315,7 @@ fn slopes<T: Real>(
     };
     let touched = near.map(|touched| {
         let grid = (window.map_or(grid, Window::grid), slab);
-        let mut neighbourhood = Neighbourhood::none(grid, operator.boundary() == Boundary::Periodic);
+        let mut neighbourhood = Neighbourhood::none(grid, operator.boundary().is_periodic());
         if let Some(touched) = touched {
             let held = window.map_or_else(|| touched.view().into(), |window| window.hold(touched.view()));
             neighbourhood.add(&Field::of(held));

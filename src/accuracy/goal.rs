@@ -4,7 +4,7 @@ use super::refine::twice;
 use super::{GridError, Quantity, adhesion, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Wall};
-use crate::elastic::{Boundary, ElasticOperator, OnGrids};
+use crate::elastic::{ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::nested::{Level, Nested, equivalent_applications};
@@ -181,7 +181,7 @@ impl Accuracy {
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
         let line = surface.grid().shape().0 == 1 || surface.grid().shape().1 == 1;
-        let by_edge = self.asks_the_edge(solver.constraint.wall(), surface, law) && boundary == Boundary::Periodic;
+        let by_edge = self.asks_the_edge(solver.constraint.wall(), surface, law) && boundary.is_periodic();
         let (mu_rho, hints) = (mu_rho(law, surface.grid(), operator.modulus()), law.hints());
         let length = if hints.of_grid { hints.work_of_adhesion.widen() / operator.modulus() } else { 0.0 };
         let adhesion = adhesion(surface, nodes_per_wave, length);

@@ -6,7 +6,7 @@ use super::goal::{DOUBT, NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, LoopLimit, Quantity};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::nested::coarsened;
 use crate::path::PathEnd;
@@ -94,7 +94,7 @@ impl Accuracy {
         mut follow: impl FnMut(&Surface, &Arc<dyn AdhesionLaw<T>>) -> std::result::Result<Option<PathEnd>, E>,
     ) -> std::result::Result<Option<LoopGrid<T>>, E> {
         let coarser = self.grids_below(surface, &*law)?;
-        let periodic = operator.boundary() == Boundary::Periodic;
+        let periodic = operator.boundary().is_periodic();
         let padding = operator.grid().nodes() as f64 / surface.grid().nodes() as f64;
         let bytes = |(nx, ny): (usize, usize)| 8.0 * (NUMBERS + KEPT) * padding * nx as f64 * ny as f64;
         let (mut surface, mut law, mut levels) = (surface.clone(), SharedLaw(law), Vec::new());

@@ -5,7 +5,7 @@ use super::refine::{is_of_interpolation, overshoots, refined, twice};
 use super::{Accuracy, AccurateSolution, GridError, resolves_adhesion};
 use crate::adhesion::SharedLaw;
 use crate::constraint::ContactConstraint;
-use crate::elastic::{Boundary, OnGrids};
+use crate::elastic::OnGrids;
 use crate::error::Result;
 use crate::nested::{Deformed, GridObserver, Level, Touching};
 use crate::problem::{Control, Problem};
@@ -160,7 +160,7 @@ impl<T: Real> Finest<T> {
         if bytes > wanted.memory {
             return Ok(Next::TooLarge(shape, bytes));
         }
-        let fine = refined(surface, report.boundary == Boundary::Periodic)?;
+        let fine = refined(surface, report.boundary.is_periodic())?;
         let is_guess = !self.is_resolved && overshoots(&fine, surface);
         Ok(if is_guess { Next::Guess } else { Next::Finer(fine) })
     }

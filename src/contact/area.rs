@@ -6,7 +6,6 @@ use ndarray::{ArrayView1, ArrayView2};
 use super::ContactStatistics;
 use super::outline::{Edge, Outline};
 use super::{contact_map, whole};
-use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::ordered;
 use crate::grid::Grid;
@@ -109,7 +108,7 @@ impl ContactArea {
         let (gap, contact_pressure, grid) = &whole(gap.view(), contact_pressure.view(), grid)?;
         let (gap, contact_pressure) = (gap.view(), contact_pressure.view());
         let map = contact_map(gap, contact_pressure);
-        let periodic = report.boundary == Boundary::Periodic;
+        let periodic = report.boundary.is_periodic();
         let outline = Outline { gap, contact_pressure, map: map.view(), grid, periodic, modulus: report.modulus };
         let facing = grid.nodes().saturating_sub(report.absent_nodes);
         let area = Self::within_edge(&outline, facing);

@@ -6,7 +6,7 @@ use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayViewMut1, Axis, Slice, Zip};
 
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
-use crate::elastic::{Boundary, ElasticOperator, OnGrids};
+use crate::elastic::{ElasticOperator, OnGrids};
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::problem::{Control, Problem, ProblemMut};
@@ -164,7 +164,7 @@ pub(super) fn solve_part<T: Real>(
     observe: Observer<'_>,
 ) -> Result<Option<OnPart<T>>> {
     let whole = *half_space.grid();
-    let fits = half_space.boundary() != Boundary::Periodic
+    let fits = !half_space.boundary().is_periodic()
         && surface.absent().is_none()
         && law.hints().shape.is_none()
         && solver.constraint.wall().hardness().is_none_or(|hardness| !hardness.varies());

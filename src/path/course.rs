@@ -6,7 +6,6 @@ use super::bracket::Bracket;
 use super::figures::{Figures, Mode};
 use super::quadrature::trapezoid;
 use super::{Event, Jump, PathSettings};
-use crate::elastic::Boundary;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
@@ -64,7 +63,7 @@ pub(super) const PLACES: usize = 4;
 
 impl Course {
     pub(super) fn on<T>(flat: &PressedFlat<T>) -> Self {
-        Self { free: flat.boundary != Boundary::Periodic, area: flat.area, ..Self::default() }
+        Self { free: !flat.boundary.is_periodic(), area: flat.area, ..Self::default() }
     }
 
     pub(super) fn control(&self, value: f64) -> Control {

@@ -70,7 +70,7 @@ fn check<T: Real>(surface: &Surface, operator: &dyn ElasticOperator<T>, law: &dy
     check_law(law, grid)?;
     let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
     Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
-    if boundary != Boundary::Periodic {
+    if !boundary.is_periodic() {
         Error::positive("mean compliance of the half-space", boundary.mean_compliance())?;
     }
     if grid.lengths() != expected.lengths() {
@@ -155,8 +155,13 @@ impl<T: Real> PressedFlat<T> {
     }
 
     /// The grid of the surface; the operator's grid is the `whole`.
-    pub(super) fn grid<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
+    pub(crate) fn grid<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
         self.window.as_ref().map_or(whole, Window::grid)
+    }
+
+    /// The number of nodes that face the surface; the operator's grid has `nodes`.
+    pub(crate) fn facing(&self, nodes: usize) -> usize {
+        self.window.as_ref().map_or(nodes, Window::facing)
     }
 
     /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
@@ -170,7 +175,7 @@ impl<T: Real> PressedFlat<T> {
             Control::Spring { .. } => "rest of the spring",
         };
         let held = || Error::finite(name, control.value());
-        let (free, absent) = (self.boundary != Boundary::Periodic, self.window.is_some());
+        let (free, absent) = (!self.boundary.is_periodic(), self.window.is_some());
         let on_grid = |pressure: f64| pressure / self.padding;
         let load = match control {
             Control::MeanGap(_) if free => {

@@ -81,8 +81,7 @@ impl Bracket {
     pub(super) fn of<T: Real>(problem: &Problem<T>, wall: Wall<'_, T>, fraction: f64) -> Result<Self> {
         let axis = Axis::of(&problem.flat, !problem.law_on_grid().hints().zero)?;
         let nodes = problem.grid().nodes();
-        let facing = problem.flat.window.as_ref().map_or(nodes, |window| window.facing());
-        let target = Target { fraction, facing: facing as f64, nodes: nodes as f64 };
+        let target = Target { fraction, facing: problem.flat.facing(nodes) as f64, nodes: nodes as f64 };
         if !(target.wanted() >= 1.0 && fraction < 1.0) {
             let requirement = "at least one node, and less than 1";
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement });

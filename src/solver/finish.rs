@@ -6,10 +6,9 @@ use super::descent::Descent;
 use super::iterate::Iterate;
 use super::passes::Fields;
 use super::plastic::yielded;
-use super::posed::Posed;
+use super::posed::{HARDLY, Posed};
 use super::report::{Plastic, Report, Solution, Solved, Status};
 use crate::adhesion::{AdhesionLaw, mu_rho, noticeable};
-use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Field, Minimum, Sums, found, read, write};
 use crate::grid::Grid;
@@ -17,9 +16,6 @@ use crate::par::Parts;
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 use crate::vector::sums;
-
-/// The share of the largest traction above which one at the edge of the window matters.
-const EDGE: f64 = 1e-3;
 
 /// The share of a noticeable traction below which bodies that are apart hardly attract each other.
 const LAST: f64 = 1e-4;
@@ -75,7 +71,7 @@ pub(super) fn finish<T: Real, Lo: Real>(mut descent: Descent<'_, T, Lo>, status:
         // the gap to the yielded surface
         solution.gap.mapv_inplace(|gap| gap.max(T::zero()));
     }
-    if flat.boundary != Boundary::Periodic {
+    if !flat.boundary.is_periodic() {
         solution.watch_edge(on_grid, flat);
     }
     Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), not_parted, touches, at_floor })
@@ -117,12 +113,11 @@ fn report<T: Real, Lo: Real>(
     carried: &Borne,
     plastic: Option<Plastic>,
 ) -> Report {
-    let (proof, iterate, posed) = (descent.proof(), &descent.iterate, &descent.iterate.posed);
-    let Posed { flat, settings, .. } = *posed;
+    let (proof, iterate) = (descent.proof(), &descent.iterate);
+    let (posed, Posed { flat, settings, .. }) = (&iterate.posed, &iterate.posed);
     let (law, operator) = (posed.law(), posed.operators.state());
     let (hints, modulus, padding) = (law.hints(), operator.modulus(), flat.padding);
     let (nodes, facing) = (posed.nodes(), posed.facing());
-    let nominal = flat.window.as_ref().map_or(nodes, |window| window.grid().nodes() as f64);
     let mu_rho = mu_rho(law, operator.grid(), modulus);
     let given = posed.detached.unwrap_or(mean);
     // the mean of the displacement is no wave; its pressure is that at which the energy is least
@@ -153,7 +148,7 @@ fn report<T: Real, Lo: Real>(
         mean_contact_pressure: carried.contact / nodes * padding,
         contact_fraction: iterate.tally().contact / facing,
         contact_nodes: iterate.tally().contact as usize,
-        absent_nodes: (nominal - facing) as usize,
+        absent_nodes: flat.grid(operator.grid()).nodes() - facing as usize,
         edge_traction: None,
         reaches_edge: false,
         min_gap: if plastic.is_some() { carried.least_gap.0.max(0.0) } else { carried.least_gap.0 },
@@ -218,7 +213,7 @@ impl<T: Real> Solution<T> {
         let noise = report.tolerance * flat.stiffness * flat.rms_height;
         let touches = grid.each(edge(&self.gap, &grid).any(|gap| gap <= T::zero())).contains(&true);
         (report.edge_traction, report.reaches_edge) =
-            (Some(share), !apart && (share > EDGE && at_edge > noise || touches));
+            (Some(share), !apart && (share > HARDLY && at_edge > noise || touches));
     }
 }
 

@@ -3,10 +3,9 @@
 use super::Method;
 use super::minimisation::{Made, Next, Residual, Step};
 use super::passes::{self, Advance, Continued, Fields, Taken, Tally, Working};
-use super::posed::Posed;
+use super::posed::{HARDLY, Posed};
 use super::start::{Begin, check_start, given_start, uniform_start};
-use super::work::{TRUSTED, Work};
-use crate::elastic::Boundary;
+use super::work::Work;
 use crate::error::Result;
 use crate::field::{Field, Minimum, read, write};
 use crate::par::Parts;
@@ -77,7 +76,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
         };
         if uniform
             && iterate.posed.law().hints().zero
-            && (iterate.posed.flat.boundary != Boundary::Periodic || iterate.posed.is_hardly_pressed())
+            && (!iterate.posed.flat.boundary.is_periodic() || iterate.posed.is_hardly_pressed())
         {
             iterate.start_undeformed()?;
         } else if uniform {
@@ -238,7 +237,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
         });
         self.work = self.count();
-        self.trust_work(TRUSTED)
+        self.trust_work(HARDLY)
     }
 
     /// Takes the tally; returns the elastic work ⟨u, p⟩ by its sums.
@@ -370,7 +369,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
 
     /// Whether the pressure has to be computed anew from the gap.
     pub(super) fn is_stale(&self, certificate: f64) -> bool {
-        self.age >= REFRESH || self.work.is_doubtful(TRUSTED) || self.has_lost_its_pressure(certificate)
+        self.age >= REFRESH || self.work.is_doubtful(HARDLY) || self.has_lost_its_pressure(certificate)
     }
 
     /// Whether some nodes yield in the present state.

@@ -9,8 +9,9 @@ const WALL: f64 = 1e-2;
 /// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
 const START: f64 = 1e-4;
 
-/// The tolerance at which a state shows how much tension it holds.
-const HOLD: f64 = 1e-3;
+/// The tolerance of a state that tells where to go on: how much tension it holds, where else surfaces touch, how far its
+/// contact is from a wanted one.
+pub(crate) const ROUGHLY: f64 = 1e-3;
 
 /// The law of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +38,7 @@ impl Stage {
     /// The solution, to the tolerance of the settings, in rounds of the constraint.
     pub(super) const SOLUTION: Self = Self { law: StageLaw::Own, rigid: false, tolerance: None };
     /// A state that may hold a tensile load, at a mean gap or under no load.
-    pub(super) const HOLD: Self = Self { law: StageLaw::Own, rigid: false, tolerance: Some(HOLD) };
+    pub(super) const HOLD: Self = Self { law: StageLaw::Own, rigid: false, tolerance: Some(ROUGHLY) };
     /// A start for the law itself, by the law with its jumps smoothed.
     pub(super) const SMOOTHED: Self = Self { law: StageLaw::Smoothed, rigid: false, tolerance: Some(START) };
 

@@ -15,12 +15,12 @@ use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw, Touched};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::Result;
 use crate::field::Field;
-use crate::problem::{Control, Load, PressedFlat, Window};
+use crate::problem::{Control, Load, PressedFlat};
 use crate::real::Real;
 
-/// The mean pressure, over the rms pressure that presses the surface flat, up to which undeformed surfaces that touch
-/// are the better start without adhesion on a periodic grid.
-const HARDLY_PRESSED: f64 = 1e-3;
+/// A share that is hardly any: of the pressure that presses the surface flat, of a tension that is held without contact,
+/// of the largest traction at the edge of a window, of a work that rounding may take.
+pub(super) const HARDLY: f64 = 1e-3;
 
 /// The stiffness of springs, over the stiffness of the stiffest wave, above which a solve with springs starts from a
 /// rigid wall.
@@ -63,7 +63,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     /// Prepares the constraint, and refuses what does not suit the grid, the load or the method.
     pub(super) fn prepare(&mut self) -> Result<()> {
         let (flat, operator) = (self.flat, self.operators.state());
-        let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid).alone();
+        let surface = flat.grid(operator.grid()).alone();
         self.constraint.start(&surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;
         let unknown =
             flat.window.is_some() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
@@ -150,7 +150,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
 
     /// The number of nodes that face the surface.
     pub(super) fn facing(&self) -> f64 {
-        self.flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64)
+        self.flat.facing(self.operators.state().grid().nodes()) as f64
     }
 
     pub(super) fn potential(&self) -> Potential<'_, T> {
@@ -178,9 +178,10 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         matches!(self.load, Load::Gap(_))
     }
 
-    /// Whether the load of the wall alone hardly presses the surfaces together.
+    /// Whether the load of the wall alone hardly presses the surfaces together: undeformed surfaces that touch are the
+    /// better start then.
     pub(super) fn is_hardly_pressed(&self) -> bool {
         let flat = self.flat.rms_pressure();
-        self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY_PRESSED * flat)
+        self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY * flat)
     }
 }

@@ -2,7 +2,8 @@
 
 use super::Criterion;
 use super::iterate::{Iterate, SCALED};
-use super::touch::TOUCHING;
+use super::plan::ROUGHLY;
+use super::work::ROUNDINGS;
 use crate::problem::Load;
 use crate::real::Real;
 
@@ -13,9 +14,6 @@ use scale::Scale;
 
 /// The ratio of an error to the error by rounding up to which an iterate is at the floor.
 const NEAR_FLOOR: f64 = 2.0;
-
-/// The roundings of a spring's length, and of K⁻¹h under no load, that count as no load, in units of ε.
-const NO_LOAD: f64 = 8.0;
 
 /// An iterate with the mean of r'·K r', which is infinite as long as it is not known.
 pub(super) struct Proof<'i, 'a, T: Real, Lo> {
@@ -80,7 +78,7 @@ impl<'i, 'a, T: Real, Lo: Real> Proof<'i, 'a, T, Lo> {
         let lengths = self.iterate.mean_gap().abs() + self.iterate.posed.load.rest().abs();
         let unloaded = self.iterate.given() == 0.0 && self.iterate.tally().contact == 0.0;
         let of_surface = if unloaded { self.iterate.posed.flat.rms_pressure() } else { 0.0 };
-        let rounding = NO_LOAD * T::epsilon().widen() * (self.iterate.posed.load.stiffness() * lengths + of_surface);
+        let rounding = ROUNDINGS * T::epsilon().widen() * (self.iterate.posed.load.stiffness() * lengths + of_surface);
         // flats at rest have neither load nor traction
         let adhesion = if self.iterate.given() == 0.0 { self.attraction() } else { 0.0 };
         let scale = self.iterate.given().abs().max(contact.abs()).max(adhesion);
@@ -105,7 +103,7 @@ impl<'i, 'a, T: Real, Lo: Real> Proof<'i, 'a, T, Lo> {
         let tolerance = self.tolerance();
         match self.iterate.posed.stage.tolerance {
             Some(start) => Some(start.max(tolerance)),
-            None if self.iterate.posed.spreads => Some(TOUCHING.max(tolerance)),
+            None if self.iterate.posed.spreads => Some(ROUGHLY.max(tolerance)),
             None if self.iterate.posed.leads_on => {
                 Some(self.iterate.posed.constraint.round_tolerance()).filter(|&round| round > tolerance)
             }

@@ -6,16 +6,13 @@ use super::driver::Observer;
 use super::minimisation::Nearness;
 use super::passes::Fields;
 use super::plan::Stage;
-use super::posed::Posed;
+use super::posed::{HARDLY, Posed};
 use super::stages::adhere;
 use crate::error::Result;
 use crate::field::{found, read};
 use crate::problem::Load;
 use crate::real::Real;
 use crate::vector::sums;
-
-/// A share of the load that, held without contact, is hardly any.
-pub(super) const HARDLY_HELD: f64 = 1e-3;
 
 /// The share of the work of adhesion that a law has left at least where its traction is strongest.
 pub(crate) const STRONGEST: f64 = 0.5;
@@ -132,7 +129,7 @@ pub(super) fn hold_gap<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, obse
         let side = next.unwrap_or(section % 2);
         let width = interval[1] - interval[0];
         gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
-        held[side] = match tension_at(descent, gaps[side], HARDLY_HELD * -load, &mut *observe)? {
+        held[side] = match tension_at(descent, gaps[side], HARDLY * -load, &mut *observe)? {
             Some(tension) if tension >= -load => {
                 go_on(descent, Load::Pressure(load), Stage::SOLUTION)?;
                 descent.begin(Nearness::Near);
@@ -142,12 +139,12 @@ pub(super) fn hold_gap<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, obse
             None => break,
         };
         tried.push((gaps[side], held[side]));
-        if most_between(&mut tried, HARDLY_HELD * -load) < -load {
+        if most_between(&mut tried, HARDLY * -load) < -load {
             break;
         }
         if section > 0 {
             // the larger tension stays inside; where hardly any is held the surfaces are apart
-            let larger = usize::from(held[1] > held[0].max(HARDLY_HELD * -load));
+            let larger = usize::from(held[1] > held[0].max(HARDLY * -load));
             interval[1 - larger] = gaps[1 - larger];
             (gaps[1 - larger], held[1 - larger]) = (gaps[larger], held[larger]);
             next = Some(larger);

@@ -10,12 +10,8 @@ use super::descent::Descent;
 use super::posed::Posed;
 use crate::adhesion::{Neighbourhood, Touched};
 use crate::constraint::Wall;
-use crate::elastic::Boundary;
 use crate::field::{Field, ordered};
 use crate::real::Real;
-
-/// The error at which surfaces may touch at nodes where they do not attract each other.
-pub(super) const TOUCHING: f64 = 1e-3;
 
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// Lets surfaces attract each other in the neighbourhood of the contacts of a gap alone, and where they still did
@@ -25,7 +21,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
             Some(window) => (*window.grid(), window.held()),
             None => (*self.operators.state().grid(), self.operators.state().grid().slab()),
         };
-        let mut neighbourhood = Neighbourhood::none((&grid, slab), self.flat.boundary == Boundary::Periodic);
+        let mut neighbourhood = Neighbourhood::none((&grid, slab), self.flat.boundary.is_periodic());
         self.mark_contacts(gap, &mut neighbourhood);
         neighbourhood.grow();
         if let Some(before) = before {

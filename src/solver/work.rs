@@ -3,8 +3,8 @@
 //! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, sums over fields that an iteration reads anyway. Under light
 //! loads they cancel, to less than their rounding; one application then gives ⟨p, K p⟩, a sum of squares.
 
-/// Rounding beyond this share of the work calls for the sum of squares, if the work is only a scale.
-pub(super) const TRUSTED: f64 = 1e-3;
+/// The roundings of a sum of products, and of a difference of sums, in units of ε.
+pub(crate) const ROUNDINGS: f64 = 8.0;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {

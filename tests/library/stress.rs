@@ -418,16 +418,16 @@ type Decided = (&'static str, End, &'static [(u64, usize)]);
 
 /// Scenes that a constant of the driver decides: without it they end otherwise, or take about twice as many iterations.
 const DECIDED: &[Decided] = &[
-    ("SHORT", End::Converged, &[(3367, 40), (3622, 30), (4822, 40)]),
+    ("LEAST of a step", End::Converged, &[(3367, 40), (3622, 30), (4822, 40)]),
     ("FARTHEST", End::Converged, &[(658, 40), (4939, 14), (1771, 24)]),
     ("HELD", End::Converged, &[(1232, 100), (2471, 60), (4939, 14)]),
     ("CLOSER", End::Converged, &[(4049, 60), (4246, 100), (4424, 30)]),
-    ("HARDLY_PRESSED", End::Converged, &[(773, 40), (802, 40), (2731, 25)]),
-    ("HARDLY_HELD", End::Converged, &[(2363, 200), (3074, 170), (4999, 90)]),
+    ("HARDLY of a load", End::Converged, &[(773, 40), (802, 40), (2731, 25)]),
+    ("HARDLY of a tension", End::Converged, &[(2363, 200), (3074, 170), (4999, 90)]),
     ("RISE", End::Detached, &[(1111, 90), (2745, 50), (3171, 80)]),
     ("REFRESH", End::Converged, &[(1329, 200), (3282, 300), (3498, 200)]),
     ("ROUNDINGS", End::Converged, &[(3869, 80), (4703, 60)]),
-    ("HOLD", End::Detached, &[(2076, 40), (3777, 60), (3984, 100)]),
+    ("ROUGHLY", End::Detached, &[(2076, 40), (3777, 60), (3984, 100)]),
     ("ONWARD", End::Converged, &[(1003, 90), (1503, 220), (3175, 55)]),
     ("STALL, the first", End::Converged, &[(656, 200), (1688, 190)]),
     ("STALL, the second", End::Stalled, &[(7425, 100), (14238, 100)]),
@@ -436,7 +436,7 @@ const DECIDED: &[Decided] = &[
     ("PROGRESS of a proof", End::Floor, &[(2112, 69), (16446, 52)]),
     ("PATIENCE", End::Converged, &[(1336, 250), (2576, 400)]),
     // the proof of the end that fails
-    ("note_refutation", End::Converged, &[(11144, 70)]),
+    ("refute", End::Converged, &[(11144, 70)]),
     // the trial at full length after one that failed
     ("preconditioned_step", End::Converged, &[(523, 200), (660, 200), (3726, 50)]),
 ];

@@ -6,18 +6,12 @@ use crate::field::{CHUNK, Sums, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::iterate::Iterate;
-use crate::solver::minimisation::{Nearness, Next, Step};
+use crate::solver::minimisation::{LEAST, Nearness, Next, Step};
 use crate::solver::passes::{self, Attempt, Fields, Tried, idles};
 use crate::solver::potential::CLOSER;
 
-/// The least curvature of a direction, as a share of its elastic curvature.
-const LEAST_CURVATURE: f64 = 0.01;
-
 /// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
-
-/// The best length, as a share of a clipped step, below which a shorter step is tried.
-const SHORT: f64 = 0.01;
 
 /// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
 const FARTHEST: f64 = 10.0;
@@ -117,7 +111,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
                 self.iterate.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.iterate.applied();
             let Some(step) = self.search(&trial, elastic * self.iterate.posed.nodes()) else { return Ok(None) };
-            if trial.tried.blocked == 0.0 || self.iterate.has_yielded() || step.length >= SHORT {
+            if trial.tried.blocked == 0.0 || self.iterate.has_yielded() || step.length >= LEAST {
                 return Ok(Some(self.iterate.advance(step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
@@ -296,7 +290,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
         let (shift, nodes) =
             (self.iterate.offset() - self.iterate.sums_of_residual().level, self.iterate.posed.nodes());
         let noise = self.iterate.energy_noise() * nodes;
-        let (stiffness, yielded) = (self.iterate.posed.load.stiffness(), self.iterate.has_yielded());
+        let stiffness = self.iterate.posed.load.stiffness();
         let tally = *self.iterate.tally();
         let Iterate { fields, posed, .. } = &mut self.iterate;
         let local = posed.potential();
@@ -319,8 +313,8 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
             return None;
         }
         let (slopes, quadratic) = (trial.slopes, elastic + spring);
-        let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
-        let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
+        let stiff = quadratic + slopes > LEAST * quadratic;
+        let curvature = if stiff { quadratic + slopes } else { LEAST * quadratic };
         let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
         // nodes that pass their corners leave none along the tangent: the whole step, which the search halves
         let best = if trial.kink > 0.0 && best <= 0.0 { 1.0 } else { best };
@@ -348,11 +342,16 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
                 }
             }
         }
-        // near the solution the best lengths scatter: damp their changes
-        let ratio = if self.iterate.posed.nearness >= Nearness::Ahead { best.sqrt() } else { best };
-        let (least, most) = if yielded { ADAPT_YIELDING } else { ADAPT };
-        self.step_length *= ratio.clamp(least, most);
+        self.adapt(best);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.tried.square);
         (length > 0.0).then_some(Step { length, scale, slope, square, change, work, elastic, spring })
+    }
+
+    /// Lets the trial length follow a best length.
+    fn adapt(&mut self, best: f64) {
+        // near the solution the best lengths scatter: damp their changes
+        let ratio = if self.iterate.posed.nearness >= Nearness::Ahead { best.sqrt() } else { best };
+        let (least, most) = if self.iterate.has_yielded() { ADAPT_YIELDING } else { ADAPT };
+        self.step_length *= ratio.clamp(least, most);
     }
 }

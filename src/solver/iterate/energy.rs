@@ -4,10 +4,7 @@ use super::Iterate;
 use crate::error::Result;
 use crate::real::Real;
 use crate::solver::passes::Fields;
-use crate::solver::work::Work;
-
-/// The roundings of each product and of their sum.
-const ROUNDINGS: f64 = 8.0;
+use crate::solver::work::{ROUNDINGS, Work};
 
 /// The residual, in units of the rounding of its updates, below which the pressure is computed anew.
 const STALE: f64 = 200.0;

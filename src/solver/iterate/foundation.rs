@@ -2,13 +2,10 @@
 
 use super::Iterate;
 use crate::real::Real;
-use crate::solver::minimisation::Nearness;
+use crate::solver::minimisation::{LEAST, Nearness};
 
 /// The least stiffness of the contacts, over the stiffness of the softest wave.
 const SOFTEST: f64 = 0.1;
-
-/// The least stiffness of the mean gap, in the same unit.
-const LEAST_MEAN: f64 = 0.01;
 
 impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
@@ -40,14 +37,14 @@ impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
             return contact + self.posed.load.stiffness();
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
-        let contact = if mean.is_finite() { mean.clamp(LEAST_MEAN * softest, stiffest) } else { softest };
+        let contact = if mean.is_finite() { mean.clamp(LEAST * softest, stiffest) } else { softest };
         contact + self.posed.load.stiffness()
     }
 
     /// Whether the bodies are apart on a spring softer than the preconditioner's mean gap.
     pub(in crate::solver) fn hangs_on_spring(&self) -> bool {
         let spring = self.posed.load.stiffness();
-        let soft = spring > 0.0 && spring < LEAST_MEAN * self.posed.stiffness_range().0;
+        let soft = spring > 0.0 && spring < LEAST * self.posed.stiffness_range().0;
         soft && self.tally.contact == 0.0
     }
 

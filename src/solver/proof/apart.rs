@@ -3,7 +3,8 @@
 use super::Proof;
 use crate::problem::Load;
 use crate::real::Real;
-use crate::solver::tension::{HARDLY_HELD, STRONGEST};
+use crate::solver::posed::HARDLY;
+use crate::solver::tension::STRONGEST;
 
 /// The relative error at which the waves of surfaces apart are at rest.
 const AT_REST: f64 = 1e-2;
@@ -27,7 +28,7 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
         let hints = self.iterate.posed.law().hints();
         let (range, work) = (hints.range.widen(), hints.work_of_adhesion.widen());
         let one = if range > 0.0 { work / range } else { 0.0 };
-        let hardly = HARDLY_HELD * self.pulled().max(one);
+        let hardly = HARDLY * self.pulled().max(one);
         let is_spent = hints.concave || range == 0.0 || self.stored() <= hardly * range;
         self.iterate.tally().traction <= hardly && is_spent
     }
@@ -37,7 +38,7 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     /// one node may have less than another.
     fn flies_apart(&self) -> bool {
         let hints = self.iterate.posed.law().hints();
-        let least = if hints.concave { 1.0 - HARDLY_HELD } else { STRONGEST };
+        let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };
         let exceeds = self.iterate.tally().traction < self.pulled() && (hints.concave || hints.shape.is_none());
         let flies = self.stored() < least * hints.work_of_adhesion.widen()
             && (exceeds || self.pulled() == 0.0 && self.iterate.posed.from_full_contact);
