@@ -28,7 +28,6 @@ mod varying;
 pub use check::check_law;
 pub use cut_off::CutOff;
 pub use exponential::Exponential;
-pub(crate) use exponentials::{exponentials_f32, exponentials_f64};
 pub use formula::{AnyLaw, Formula};
 pub use hints::Hints;
 pub use jkr::Jkr;

@@ -9,10 +9,10 @@ use crate::adhesion::{AdhesionLaw, Neighbourhood, Values, noticeable, on_grid};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::Solution;
 
-pub(crate) use outline::{Edge, Outline};
+use outline::Outline;
 
 mod area;
 mod clusters;
@@ -29,6 +29,14 @@ pub use distribution::{PressureDistribution, bulk};
 pub use extremes::PressureExtremes;
 pub use original::Original;
 pub use patch::Patch;
+
+once! {
+    /// The statistics of a contact.
+    statistics<'a, T>(
+        gap: ArrayView2<'a, T>, contact_pressure: ArrayView2<'a, T>, grid: &'a Grid, body: (Boundary, f64),
+        law: &'a dyn AdhesionLaw<T>,
+    ) -> Result<ContactStatistics> = ContactStatistics::count;
+}
 
 /// The region of a node, by what the surfaces do to each other there. As numbers 1, −1, 0 and NaN.
 #[non_exhaustive]
@@ -227,10 +235,10 @@ impl ContactStatistics {
         (boundary, modulus): (Boundary, f64),
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
-        T::statistics(gap, contact_pressure, grid, (boundary, modulus), law)
+        statistics(gap, contact_pressure, grid, (boundary, modulus), law)
     }
 
-    pub(crate) fn count<T: Real>(
+    fn count<T: Real>(
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,
         grid: &Grid,

@@ -20,7 +20,6 @@ pub use boussinesq::Boussinesq;
 pub use check::check_operator;
 pub(crate) use coarse::CoarseSpace;
 pub use spectral::Spectral;
-pub(crate) use spectral::{Factor, Stiffness, waves};
 pub use westergaard::Westergaard;
 
 /// The elastic operator of a half-space: the pressure p = K⁻¹u of a displacement u of its surface, and u = Kp.

@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use asperity_fft::Transform;
 use asperity_fft::num_complex::Complex;
+use asperity_fft::{Transform, double, single};
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use num_traits::Zero;
 
 use crate::error::{Error, Result};
 use crate::par::{self, Parts, Pool};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::slab::{Slab, TILE};
 
 mod analysis;
@@ -22,6 +22,14 @@ pub(crate) use columns::HalfSpectrum;
 pub(crate) use layout::Layout;
 use layout::Twiddles;
 use pack::{join, lines_mut, pack, separate, unpack};
+
+once! {
+    /// The transform of a length.
+    transform<T>(len: usize) -> Transform<T> = single, double;
+    /// The convolution of a slab.
+    planned<T>(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Convolver<T> =
+        Convolver::planned;
+}
 
 /// Slack after each line of a tile: with a power-of-two stride a column of the tile would fall into one cache set.
 const SLACK: usize = 8;
@@ -57,7 +65,7 @@ impl<T: Real> fmt::Debug for Convolver<T> {
 
 impl<T: Real> Clone for Convolver<T> {
     fn clone(&self) -> Self {
-        T::convolver(self.slab, self.layout, self.rows.clone(), self.columns.clone())
+        planned(self.slab, self.layout, self.rows.clone(), self.columns.clone())
     }
 }
 
@@ -68,7 +76,7 @@ impl<T: Real> Convolver<T> {
 
     fn with(slab: Slab, layout: Layout) -> Self {
         let (n0, n1) = layout.plane();
-        T::convolver(slab, layout, T::transform(n1), T::transform(n0))
+        planned(slab, layout, transform(n1), transform(n0))
     }
 
     pub(crate) fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {

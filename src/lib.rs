@@ -92,7 +92,6 @@ mod fft;
 mod field;
 mod grid;
 pub mod guide;
-mod heavy;
 mod names;
 pub mod nested;
 mod par;

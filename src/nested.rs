@@ -9,7 +9,7 @@ use crate::elastic::OnGrids;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::problem::{Control, Problem, ProblemMut};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{Begin, Branch, Iteration, Method, Report, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
@@ -25,6 +25,15 @@ use hierarchy::coarser;
 pub use level::Level;
 pub(crate) use level::equivalent_applications;
 pub(crate) use transfer::{Deformed, Touching};
+
+once! {
+    /// A solve on nested grids.
+    nested<'a, T>(
+        nested: &'a Nested, solver: &'a mut Solver<dyn ContactConstraint<T>>, heights: Heights<'a>,
+        operators: &'a mut dyn OnGrids<T>,
+        law: &'a SharedLaw<T>, control: Control, observe: GridObserver<'a>,
+    ) -> Result<(Solved<T>, Vec<Level>)> = Nested::run;
+}
 
 /// The observer of iterations on some grid, which may stop a solve.
 pub(crate) type GridObserver<'a> = &'a mut (dyn FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send);
@@ -189,7 +198,7 @@ impl Nested {
     ) -> Result<NestedSolution<T>> {
         let law = SharedLaw::new(law);
         let (Solved { solution, .. }, levels) =
-            T::nested(self, solver, Box::new(surface), &mut operators, &law, control, &mut observe)?;
+            nested(self, solver, Box::new(surface), &mut operators, &law, control, &mut observe)?;
         Ok(NestedSolution { solution, levels })
     }
 

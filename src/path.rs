@@ -10,7 +10,7 @@ use ndarray::Array2;
 use crate::constraint::ContactConstraint;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::{
     Begin, Criterion, Iteration, Observer, Place, ROUNDINGS, Report, Solution, Solved, Solver, Start, Status,
     check_hardness, check_wall, refuse_springs,
@@ -40,6 +40,12 @@ pub use settings::PathSettings;
 use sharp::Sharp;
 pub use step::PathStep;
 use trial::{Judgement, Trial};
+
+once! {
+    /// The next state of a path.
+    follow<'a, T>(path: &'a mut Path<T>, bench: &'a mut Bench<'a, T>) -> Result<Option<PathStep<T>>> =
+        [within] Path::advance;
+}
 
 /// A path of equilibria: the states of a branch that is followed from load to load in small steps, with its jumps.
 ///
@@ -142,7 +148,7 @@ const SHARE: f64 = 0.01;
 const LOOSEST: f64 = 1e-4;
 
 /// What a path is followed with.
-pub struct Bench<'a, T: Real> {
+pub(crate) struct Bench<'a, T: Real> {
     solver: &'a mut Solver<dyn ContactConstraint<T>>,
     problem: &'a mut Problem<T>,
     observe: Observer<'a>,
@@ -257,12 +263,12 @@ impl<T: Real> Path<T> {
         if self.failed {
             return Ok(None);
         }
-        let step = T::follow(self, &mut Bench { solver, problem, observe: &mut observe });
+        let step = follow(self, &mut Bench { solver, problem, observe: &mut observe });
         self.failed |= step.is_err();
         step
     }
 
-    pub(crate) fn advance(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
+    fn advance(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
         if !self.course.solved {
             let Some(&load) = self.legs.first() else { return Ok(None) };
             self.check(bench.solver, bench.problem)?;

@@ -10,7 +10,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::Field;
 use crate::grid::Grid;
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::surface::Surface;
 
 mod control;
@@ -24,6 +24,13 @@ pub(crate) use flat::PressedFlat;
 use flat::check_law;
 pub(crate) use window::Window;
 pub(crate) use yielded::Yielded;
+
+once! {
+    /// The surface pressed flat against the body of an operator, if that and the law suit it.
+    press_flat<'a, T>(
+        surface: &'a Surface, operator: &'a mut dyn ElasticOperator<T>, law: &'a dyn AdhesionLaw<T>,
+    ) -> Result<PressedFlat<T>> = [within] PressedFlat::of;
+}
 
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.
 ///
@@ -99,7 +106,7 @@ impl<T: Real> Problem<T> {
 
     pub(crate) fn of(surface: &Surface, mut operator: Box<dyn ElasticOperator<T>>, law: SharedLaw<T>) -> Result<Self> {
         let on_nodes = on_grid(&*law, operator.grid(), operator.modulus());
-        let flat = T::press_flat(surface, &mut *operator, on_nodes.as_deref().unwrap_or(&*law))?;
+        let flat = press_flat(surface, &mut *operator, on_nodes.as_deref().unwrap_or(&*law))?;
         Ok(Self { operator, law, on_nodes, flat })
     }
 

@@ -6,12 +6,20 @@ use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{
     Begin, Branch, Criterion, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status,
     check_wall, refuse_hardness, unload,
 };
+
+once! {
+    /// A search for a pull-off.
+    search<'a, T>(
+        search: PullOff, solver: &'a mut Solver<dyn ContactConstraint<T>>, problem: &'a mut Problem<T>,
+        start: Start<'a, T>, observe: Observer<'a>,
+    ) -> Result<FoundPullOff<T>> = [within] PullOff::search;
+}
 
 /// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
@@ -134,10 +142,10 @@ impl PullOff {
         start: Start<'_, T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundPullOff<T>> {
-        T::pull_off(*self, solver, problem, start, &mut observe)
+        search(*self, solver, problem, start, &mut observe)
     }
 
-    pub(crate) fn search<T: Real>(
+    fn search<T: Real>(
         self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
         problem: &mut Problem<T>,

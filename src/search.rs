@@ -7,7 +7,7 @@ use ndarray::Array2;
 use crate::constraint::{ContactConstraint, Wall};
 use crate::error::{Error, Result};
 use crate::problem::Problem;
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::{
     Begin, Branch, Iteration, Method, Observer, Place, ROUGHLY, Solution, Solved, Solver, Start, Status,
 };
@@ -17,6 +17,14 @@ mod bracket;
 
 use axis::Axis;
 use bracket::{Bracket, Point};
+
+once! {
+    /// A search for a contact fraction.
+    find<'a, T>(
+        search: &'a mut ContactSearch<T>, solver: &'a mut Solver<dyn ContactConstraint<T>>,
+        problem: &'a mut Problem<T>, fraction: f64, observe: Observer<'a>,
+    ) -> Result<FoundContact<T>> = [within] ContactSearch::find;
+}
 
 /// The distance from the wanted contact, in units of the tolerance, from which on a state is solved roughly.
 const FAR: f64 = 2.0;
@@ -147,10 +155,10 @@ impl<T: Real> ContactSearch<T> {
         fraction: f64,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundContact<T>> {
-        T::search(self, solver, problem, fraction, &mut observe)
+        find(self, solver, problem, fraction, &mut observe)
     }
 
-    pub(crate) fn find(
+    fn find(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
         problem: &mut Problem<T>,

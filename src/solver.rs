@@ -3,10 +3,11 @@
 use std::ops::ControlFlow;
 
 use crate::constraint::{ContactConstraint, Projection};
+use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::names::names;
 use crate::problem::{Control, Problem, ProblemMut};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::setters::setters;
 
 mod branch;
@@ -37,12 +38,13 @@ mod work;
 pub use branch::Branch;
 pub(crate) use coarse::Coarse;
 pub use descent::rey2017::Criterion;
-pub(crate) use driver::{Job, Observer};
+use driver::Job;
+pub(crate) use driver::Observer;
 pub(crate) use minimisation::Nearness;
 pub(crate) use place::Place;
 pub(crate) use plan::ROUGHLY;
 pub(crate) use potential::{Least, Of, Potential, bounded};
-pub(crate) use precision::{in_double, in_single};
+use precision::{in_double, in_single};
 pub(crate) use report::Solved;
 pub use report::{Iteration, Plastic, Report, Solution, Status};
 pub use start::Start;
@@ -50,6 +52,12 @@ pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_h
 pub(crate) use tension::STRONGEST;
 pub(crate) use unload::unload;
 pub(crate) use work::ROUNDINGS;
+
+once! {
+    /// A solve.
+    solve<'a, T>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solved<T>> =
+        [within] in_single, in_double;
+}
 
 /// The method of iteration, one of two.
 #[non_exhaustive]
@@ -231,6 +239,6 @@ impl<T: Real> Solver<dyn ContactConstraint<T>> {
     ) -> Result<Solved<T>> {
         let Self { settings, constraint } = self;
         let ProblemMut { operator, law, given, flat } = problem;
-        T::solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
+        solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

@@ -14,7 +14,7 @@ use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
 use crate::names::names;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Problem, ProblemMut, Window, smoothed_law};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
 
@@ -34,6 +34,14 @@ use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 pub use stiffness::ContactStiffness;
 pub(crate) use watch::{Saddle, Watch};
+
+once! {
+    /// A test of stability.
+    judge<'a, T>(
+        test: &'a StabilityTest, problem: ProblemMut<'a, T>, constraint: &'a dyn ContactConstraint<T>, control: Control,
+        gap: (&'a Array2<T>, Near<'a>), relative_error: f64,
+    ) -> Result<Stability<T>> = [within] StabilityTest::judge;
+}
 
 /// The verdict on an equilibrium: stable, unstable, or undecided.
 #[non_exhaustive]
@@ -178,7 +186,7 @@ impl StabilityTest {
         solution.check(&problem.parts(), constraint)?;
         let control = self.control.unwrap_or(solution.report.control);
         let (gap, near) = (&solution.gap, Near::Of(solution.touched.as_ref()));
-        T::stability(self, problem.parts(), constraint, control, (gap, near), solution.report.relative_error)
+        judge(self, problem.parts(), constraint, control, (gap, near), solution.report.relative_error)
     }
 
     /// Tests a gap that was kept with its [`Report::relative_error`](crate::Report::relative_error), under a control.
@@ -193,10 +201,10 @@ impl StabilityTest {
         gap: &Array2<T>,
         relative_error: f64,
     ) -> Result<Stability<T>> {
-        T::stability(self, problem.parts(), constraint, control, (gap, Near::Contacts), relative_error)
+        judge(self, problem.parts(), constraint, control, (gap, Near::Contacts), relative_error)
     }
 
-    pub(crate) fn judge<T: Real>(
+    fn judge<T: Real>(
         &self,
         problem: ProblemMut<'_, T>,
         constraint: &dyn ContactConstraint<T>,

@@ -7,11 +7,19 @@ use ndarray::Array2;
 use crate::constraint::ContactConstraint;
 use crate::error::Result;
 use crate::problem::{Control, Problem};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::{
     Begin, Branch, Iteration, Least, Nearness, Observer, Place, Potential, Solution, Solved, Solver, Start,
     check_hardness, extrapolated, unload,
 };
+
+once! {
+    /// The next load of a sweep.
+    step<'a, T>(
+        sweep: &'a mut Sweep<T>, solver: &'a mut Solver<dyn ContactConstraint<T>>, problem: &'a mut Problem<T>,
+        load: Control, observe: Observer<'a>,
+    ) -> Result<Solution<T>> = [within] Sweep::step;
+}
 
 /// A sweep of one problem through a sequence of loads, each solve from where the solves before lead.
 ///
@@ -126,10 +134,10 @@ impl<T: Real> Sweep<T> {
         load: Control,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<Solution<T>> {
-        T::sweep(self, solver, problem, load, &mut observe)
+        step(self, solver, problem, load, &mut observe)
     }
 
-    pub(crate) fn step(
+    fn step(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
         problem: &mut Problem<T>,

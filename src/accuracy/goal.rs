@@ -7,13 +7,22 @@ use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::{ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Level, Nested, equivalent_applications};
+use crate::nested::{GridObserver, Level, Nested, equivalent_applications};
 use crate::problem::Control;
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{Iteration, Settings, Solution, Solver};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
+
+once! {
+    /// A solve to an accuracy.
+    refine<'a, T>(
+        accuracy: &'a Accuracy, solver: &'a mut Solver<dyn ContactConstraint<T>>, surface: &'a Surface,
+        operators: &'a mut dyn OnGrids<T>,
+        law: &'a SharedLaw<T>, control: Control, observe: GridObserver<'a>,
+    ) -> Result<AccurateSolution<T>> = Accuracy::refine;
+}
 
 /// The tolerance of the solver as a share of the accuracy, and the largest.
 const SHARE: f64 = 0.05;
@@ -279,6 +288,6 @@ impl Accuracy {
             nested = nested.stiffness(nested.stiffness.map_or(needed, |given| given.min(needed)));
         }
         let (wanted, law) = (Self { nested, ..*self }, SharedLaw::new(law));
-        solver.to(tolerance, |solver| T::refine(&wanted, solver, surface, &mut operators, &law, control, &mut observe))
+        solver.to(tolerance, |solver| refine(&wanted, solver, surface, &mut operators, &law, control, &mut observe))
     }
 }

@@ -15,9 +15,18 @@ use crate::grid::Grid;
 use crate::nested::{GridObserver, coarsened};
 use crate::problem::Problem;
 use crate::pull_off::{FoundPullOff, PullOff};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::{Iteration, Solver, Start, Status};
 use crate::surface::Surface;
+
+once! {
+    /// A search for a pull-off to an accuracy.
+    refine<'a, T>(
+        accuracy: &'a Accuracy, solver: &'a mut Solver<dyn ContactConstraint<T>>, surface: &'a Surface,
+        operators: &'a mut dyn OnGrids<T>,
+        law: &'a SharedLaw<T>, search: PullOff, observe: GridObserver<'a>,
+    ) -> Result<AccuratePullOff<T>> = Accuracy::refine_pull_off;
+}
 
 /// The factors of the process zone and of the difference to the grid of half as many nodes, in the error, and the factor of
 /// the adhesion by which the error is larger.
@@ -233,10 +242,10 @@ impl Accuracy {
         search: &PullOff,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
     ) -> Result<AccuratePullOff<T>> {
-        T::refine_pull_off(self, solver, surface, &mut operators, &SharedLaw::new(law), *search, &mut observe)
+        refine(self, solver, surface, &mut operators, &SharedLaw::new(law), *search, &mut observe)
     }
 
-    pub(crate) fn refine_pull_off<T: Real>(
+    fn refine_pull_off<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,

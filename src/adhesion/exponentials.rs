@@ -1,19 +1,20 @@
 //! Exponentials of many numbers on vector instructions.
 
-use crate::real::Real;
+use crate::real::once;
 use crate::vector::{BLOCK, vectorised};
 
-/// `factor·exp(rate·x)` for many x, to two units in the last place; zero where it would be subnormal.
-///
-/// Without branches and tables, so that it runs on vector instructions, with the same bits on every platform.
-pub(super) fn exponentials<T: Real>(factor: T, rate: T, x: &[T], results: &mut [T]) {
-    T::exponentials(factor, rate, x, results);
+once! {
+    /// `factor·exp(rate·x)` for many x, to two units in the last place; zero where it would be subnormal.
+    ///
+    /// Without branches and tables, so that it runs on vector instructions, with the same bits on every platform.
+    pub(super) exponentials<'a, T>(factor: T, rate: T, x: &'a [T], results: &'a mut [T]) -> () =
+        exponentials_f32, exponentials_f64;
 }
 
 /// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r, and k into the bits of the exponent.
 macro_rules! exponentials {
     ($name:ident, $float:ty, $mantissa:literal, $bias:literal, $magic:expr, $ln2:expr, $low:expr, $high:expr, $series:expr) => {
-        pub(crate) fn $name(factor: $float, rate: $float, x: &[$float], results: &mut [$float]) {
+        fn $name(factor: $float, rate: $float, x: &[$float], results: &mut [$float]) {
             vectorised(
                 #[inline(always)]
                 || {

@@ -9,8 +9,13 @@ use super::{contact_map, whole};
 use crate::error::Result;
 use crate::field::ordered;
 use crate::grid::Grid;
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::Solution;
+
+once! {
+    /// The edge of a contact.
+    edge<'a, T>(outline: &'a Outline<'a, T>) -> Edge = Outline::edge;
+}
 
 /// The excess area of a contact map per edge, in cells: (π − 1 + ln 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
@@ -140,7 +145,7 @@ impl ContactArea {
     pub(super) fn within_edge<'a, T: Real>(outline: &'a Outline<'a, T>, facing: usize) -> Self {
         let &Outline { map, grid, periodic, modulus, .. } = outline;
         let known = modulus.is_finite() && modulus > 0.0;
-        let edge = |along| if known { T::edge(outline) } else { edge_of_map(along, grid) };
+        let edge = |along| if known { edge(outline) } else { edge_of_map(along, grid) };
         Self::within(map, grid, periodic, facing, edge)
     }
 

@@ -4,11 +4,24 @@ use std::sync::Arc;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Products};
+use crate::real::once;
 
 mod stiffness;
 
-use stiffness::{Columns, check_range, soften, stiffen, stiffness};
-pub(crate) use stiffness::{Stiffness, waves};
+use stiffness::{Columns, Stiffness, check_range, soften, stiffen, stiffness, waves};
+
+once! {
+    /// The stiffness of the homogeneous half-space, and the stiffness of its softest and stiffest wave.
+    half_space<'a, T>(grid: &'a Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> = waves;
+    /// An application of a spectral operator.
+    apply<'a, T>(
+        operator: &'a mut Spectral<T>, input: ArrayView2<'a, T>, output: ArrayViewMut2<'a, T>, factor: Factor<'a>,
+    ) -> Result<Products> = Spectral::convolve;
+    /// The pressure of heights in `f64`, and its work.
+    press<'a, T>(
+        operator: &'a mut Spectral<T>, heights: ArrayView2<'a, f64>, pressure: ArrayViewMut2<'a, T>,
+    ) -> Result<Products> = Spectral::<f32>::press, Spectral::<f64>::press;
+}
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
 type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -100,7 +113,7 @@ impl<T: Real> Spectral<T> {
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
-        let (stiffness, range) = T::half_space(&grid, modulus)?;
+        let (stiffness, range) = half_space(&grid, modulus)?;
         let convolver = Convolver::new(grid.slab());
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true, far_compliance: None })
     }
@@ -158,20 +171,20 @@ pub enum Factor<'a> {
 
 impl Spectral<f32> {
     /// The pressure of heights in `f64`, and its work.
-    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f32>) -> Result<Products> {
+    fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f32>) -> Result<Products> {
         self.in_double()?.convolve(heights, pressure, Factor::Stiffness)
     }
 }
 
 impl Spectral<f64> {
     /// The pressure of heights, and its work.
-    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f64>) -> Result<Products> {
+    fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f64>) -> Result<Products> {
         self.convolve(heights, pressure, Factor::Stiffness)
     }
 }
 
 impl<T: Real> Spectral<T> {
-    pub(crate) fn convolve<U: Real>(
+    fn convolve<U: Real>(
         &mut self,
         input: ArrayView2<'_, T>,
         output: ArrayViewMut2<'_, U>,
@@ -245,7 +258,7 @@ impl<T: Real> Spectral<T> {
         heights: ArrayView2<'_, f64>,
         pressure: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
-        let [work, ..] = T::press(self, heights, pressure)?;
+        let [work, ..] = press(self, heights, pressure)?;
         Ok(work / self.norm())
     }
 
@@ -283,7 +296,7 @@ impl<T: Real> Spectral<T> {
         displacement: ArrayView2<'_, T>,
         pressure: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
-        let [work, ..] = T::apply(self, displacement, pressure, Factor::Stiffness)?;
+        let [work, ..] = apply(self, displacement, pressure, Factor::Stiffness)?;
         Ok(work / self.norm())
     }
 
@@ -294,7 +307,7 @@ impl<T: Real> Spectral<T> {
         foundation: Foundation<'_>,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let [error, descent, mean] = T::apply(self, residual, preconditioned, Factor::Preconditioner(foundation))?;
+        let [error, descent, mean] = apply(self, residual, preconditioned, Factor::Preconditioner(foundation))?;
         let mean = mean / self.grid.nodes() as f64;
         Ok(Preconditioned { error: error / self.norm(), descent: descent / self.norm(), mean })
     }
@@ -310,7 +323,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-        T::apply(self, pressure, displacement, Factor::Compliance).map(|_| ())
+        apply(self, pressure, displacement, Factor::Compliance).map(|_| ())
     }
 
     fn stiffness_range(&self) -> (f64, f64) {

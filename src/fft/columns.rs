@@ -7,9 +7,16 @@ use asperity_fft::num_complex::Complex;
 use super::{Layout, Products, Workspace};
 use crate::field::Field;
 use crate::par::{self, Chunks, Pool};
-use crate::ranks::Shares;
-use crate::real::Real;
+use crate::ranks::{Ranks, Shares};
+use crate::real::{Real, once};
 use crate::slab::Slab;
+
+once! {
+    /// The exchange of a spectrum between processes.
+    exchange<'a, T>(
+        ranks: Ranks, from: &'a [Complex<T>], sent: &'a Shares, into: &'a mut [Complex<T>], received: &'a Shares,
+    ) -> () = Ranks::exchange;
+}
 
 /// The half spectrum, stored by columns. Where processes share the field, each has the rows of its slab of all columns,
 /// and transforms some columns: it gets one piece of these from every process, and sends one back. A column is put
@@ -71,7 +78,7 @@ impl<T: Real> HalfSpectrum<T> {
     pub(super) fn come(&mut self) {
         if self.is_in_pieces() {
             let Self { slab, modes, sent, received, pieces, .. } = self;
-            T::exchange(slab.ranks(), modes.nodes(), sent, pieces, received);
+            exchange(slab.ranks(), modes.nodes(), sent, pieces, received);
         }
     }
 
@@ -79,7 +86,7 @@ impl<T: Real> HalfSpectrum<T> {
     pub(super) fn go(&mut self) {
         if self.is_in_pieces() {
             let Self { slab, modes, sent, received, pieces, .. } = self;
-            T::exchange(slab.ranks(), pieces, received, modes.nodes_mut(), sent);
+            exchange(slab.ranks(), pieces, received, modes.nodes_mut(), sent);
         }
     }
 

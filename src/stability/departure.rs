@@ -6,11 +6,19 @@ use super::Stability;
 use crate::constraint::ContactConstraint;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::{
     Begin, Iteration, Observer, Potential, Solution, Solved, Solver, Start, Status, bounded, refuse_hardness,
     refuse_springs,
 };
+
+once! {
+    /// The departure from a saddle.
+    depart<'a, T>(
+        stability: &'a Stability<T>, solver: &'a mut Solver<dyn ContactConstraint<T>>, problem: &'a mut Problem<T>,
+        from: &'a Solution<T>, observe: Observer<'a>,
+    ) -> Result<Option<Departure<T>>> = [within] Stability::depart;
+}
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
@@ -62,10 +70,10 @@ impl<T: Real> Stability<T> {
         from: &Solution<T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<Option<Departure<T>>> {
-        T::leave(self, solver, problem, from, &mut observe)
+        depart(self, solver, problem, from, &mut observe)
     }
 
-    pub(crate) fn depart(
+    fn depart(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
         problem: &mut Problem<T>,

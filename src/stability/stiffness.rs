@@ -8,8 +8,15 @@ use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::field::Field;
 use crate::problem::{Load, Problem, ProblemMut, smoothed_law};
-use crate::real::Real;
+use crate::real::{Real, once};
 use crate::solver::Solution;
+
+once! {
+    /// The contact stiffness of a solution.
+    find<'a, T>(
+        problem: ProblemMut<'a, T>, constraint: &'a dyn ContactConstraint<T>, solution: &'a Solution<T>, tolerance: f64,
+    ) -> Result<ContactStiffness> = [within] ContactStiffness::find;
+}
 
 /// The most iterations; some ten are usual.
 const MOST: usize = 500;
@@ -100,10 +107,10 @@ impl ContactStiffness {
         solution: &Solution<T>,
         tolerance: f64,
     ) -> Result<Self> {
-        T::stiffness(problem.parts(), constraint, solution, tolerance)
+        find(problem.parts(), constraint, solution, tolerance)
     }
 
-    pub(crate) fn find<T: Real>(
+    fn find<T: Real>(
         problem: ProblemMut<'_, T>,
         constraint: &dyn ContactConstraint<T>,
         solution: &Solution<T>,
