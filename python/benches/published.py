@@ -84,7 +84,7 @@ def pressed(heights, **load):
 
 def own(value, error, reason=None):
     """A number with its error of the grid, or the reason why it has none."""
-    return f"{value:#.4g}, {reason}" if error is None else f"{value:#.4g} ± {100 * error:.2g} %"
+    return f"{value:#.4g}, no error: {reason}" if error is None else f"{value:#.4g} ± {100 * error:.2g} %"
 
 
 def rough():
