@@ -33,10 +33,6 @@ def test_an_accuracy_chooses_grid_and_tolerance(coarse, caplog):
     assert np.allclose(found.heights[::stride, ::stride], coarse.heights, rtol=0, atol=1e-15)
     assert np.isclose(found.displacement.mean() - found.heights.mean(), found.mean_gap)
     assert 0 < error["relative"] < 0.02 and "error of the grid" in repr(found) and "of the area" in repr(found)
-    # and it is true: the same surface on a grid of 32 nodes in the shortest wave
-    fine = asperity.surface.self_affine(256, 1.0, rms_slope=0.1, k_l=1, k_r=2, k_s=8, seed=1)
-    truth = asperity.solve(fine, **PRESSED).report["corrected_contact_fraction"]
-    assert abs(found.report["corrected_contact_fraction"] / truth - 1) < 0.02
     other = pickle.loads(pickle.dumps(found))
     assert other.plan == plan and other.report == found.report
     # what is done with a solution is done on its grid
@@ -102,15 +98,3 @@ def test_accuracies_that_make_no_sense_are_refused(coarse, given, message):
 def test_an_accuracy_is_of_a_load_that_is_given(coarse):
     with pytest.raises(ValueError, match="leave out accuracy, or give a load"):
         asperity.solve(coarse, modulus=1.0, contact_fraction=0.1, accuracy=0.05)
-
-
-def test_a_tip_is_as_stiff_as_a_punch_of_its_contact(sphere):
-    found = asperity.solve(sphere, 1.0, modulus=1.0, approach=0.04, boundary="free", stiffness=True)
-    # 18 nodes along the radius of the contact, which the map has to half a node
-    assert np.isclose(found.normal_stiffness, 2 * np.sqrt(2.0 * 0.04), rtol=0.03)
-    assert found.contact_stiffness == found.normal_stiffness and "contact stiffness" in repr(found)
-    loads = [1e-3, 2e-3]
-    sweep = asperity.sweep(sphere, 1.0, modulus=1.0, normal_forces=loads, boundary="free", stiffness=True)
-    assert list(sweep.columns)[-2:] == ["contact_stiffness", "normal_stiffness"]
-    hertz = asperity.exact.Hertz(2.0, 1.0).at_load(loads)
-    assert np.allclose(sweep.columns["normal_stiffness"], 2 * hertz.contact_radius, rtol=0.06)

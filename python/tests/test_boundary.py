@@ -36,25 +36,6 @@ def test_a_tip_under_a_force_is_that_of_hertz(tip, hertz):
     assert found.report["control"] == "normal-force" and found.report["control_value"] == FORCE
 
 
-def test_an_approach_and_a_spring_lead_to_the_state_of_the_force(tip):
-    by_force = pressed(tip, normal_force=FORCE)
-    by_approach = pressed(tip, approach=by_force.approach)
-    # the force goes with the gap, whose energy is right to 1e-6
-    assert np.isclose(by_approach.normal_force, FORCE, rtol=1e-4)
-    stiffness = 0.05
-    by_spring = pressed(tip, spring=(stiffness, by_force.approach + FORCE / stiffness))
-    assert np.isclose(by_spring.normal_force, FORCE, rtol=1e-4)
-    assert np.isclose(by_spring.approach, by_force.approach, rtol=1e-4)
-    assert by_spring.report["control"] == "spring"
-
-
-def test_a_force_on_a_periodic_surface_is_its_pressure_times_its_area(rough):
-    by_force = asperity.solve(rough.heights, 2.0, modulus=1.0, normal_force=0.04)
-    by_pressure = asperity.solve(rough.heights, 2.0, modulus=1.0, mean_pressure=0.01)
-    assert by_force.gap.tobytes() == by_pressure.gap.tobytes() and by_force.normal_force == 0.04
-    assert by_force.boundary == "periodic" and by_force.approach is by_force.edge_traction is None
-
-
 def test_missing_points_may_be_absent_nodes():
     x = np.arange(48) / 48 - 0.5
     radius, approach = 0.45, 0.01
@@ -70,29 +51,6 @@ def test_missing_points_may_be_absent_nodes():
     statistics = found.statistics
     assert statistics.contact_fraction == 1.0 and statistics.contact_nodes == found.report["contact_nodes"]
     assert statistics.perimeter == found.report["perimeter"]
-
-
-def test_opposite_sides_meet_in_a_periodic_cell_alone():
-    ramp = np.tile(np.abs(np.arange(32) / 31 - 0.5)[:, None], (1, 32)) / 20
-    with pytest.warns(asperity.InputWarning, match="window-edge"):
-        free = pressed(ramp, lengths=1.0, normal_force=1e-3).statistics
-    periodic = asperity.solve(ramp, 1.0, modulus=1.0, normal_force=1e-3).statistics
-    assert len(periodic.cluster_sizes) == 1 and len(free.cluster_sizes) == 2
-    # both have two edges of length 1 inside; the free one has those of the window, too
-    assert np.isclose(periodic.perimeter, 2.0) and free.perimeter > 4.0
-
-
-def test_sweeps_along_forces_approaches_and_springs(tip):
-    forces = [5e-4, 1e-3]
-    by_force = asperity.sweep(tip, modulus=1.0, normal_forces=forces, boundary="free").columns
-    exact = asperity.exact.Hertz(RADIUS, 1.0).at_load(forces)
-    assert np.allclose(by_force["approach"], exact.approach, rtol=5e-4)
-    approaches = by_force["approach"]
-    by_approach = asperity.sweep(tip, modulus=1.0, approaches=approaches, boundary="free").columns
-    springs = [(0.05, approach + force / 0.05) for approach, force in zip(approaches, forces)]
-    by_spring = asperity.sweep(tip, modulus=1.0, springs=springs, boundary="free").columns
-    for columns in (by_force, by_approach, by_spring):
-        assert np.allclose(columns["normal_force"], forces, rtol=1e-4)
 
 
 def test_a_tip_with_adhesion_on_a_spring_jumps_in_and_off():

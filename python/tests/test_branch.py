@@ -23,12 +23,6 @@ def test_loading_is_the_default_and_both_are_compared():
     assert one.report["other_branch"]["same"]
 
 
-def test_sweeps_begin_on_a_branch():
-    for branch, flat in [("loading", False), ("unloading", True)]:
-        found = asperity.sweep(WAVE, 1.0, modulus=1.0, law=LAW, mean_pressures=[1e-3, 2e-3], branch=branch)
-        assert (found.columns["contact_fraction"][0] == 1.0) == flat
-
-
 def test_branches_that_are_none_are_refused():
     scene = {"modulus": 1.0, "law": LAW}
     with pytest.raises(ValueError, match="branch is down: it must be loading, unloading or both"):

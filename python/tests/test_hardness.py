@@ -22,11 +22,10 @@ def elastic(surface):
 
 def test_pressures_are_capped_and_the_depth_is_reported(surface, elastic):
     hardness = 0.3 * float(elastic.contact_pressure.max())
-    solution = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=hardness, tolerance=1e-8)
-    gap, pressure, depth = solution.gap, solution.contact_pressure, solution.plastic_depth
-    assert solution.converged and pressure.min() >= 0.0 and pressure.max() == hardness
-    assert depth.max() > 0.0 and np.all(pressure[depth > 0] == hardness) and np.all(gap[depth > 0] == 0.0)
-    assert np.isclose(pressure.mean(), 0.02, rtol=1e-6)
+    solution = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=hardness)
+    gap, depth = solution.gap, solution.plastic_depth
+    assert solution.contact_pressure.max() == hardness and elastic.plastic_depth is None
+    assert all(elastic.report[key] is None for key in ("hardness", "plastic_fraction", "plastic_depth_max", "plastic_energy"))
     report = solution.report
     assert (report["hardness"], report["plastic_depth_max"]) == (hardness, depth.max())
     assert report["plastic_fraction"] == (depth > 0).mean()
@@ -39,17 +38,6 @@ def test_pressures_are_capped_and_the_depth_is_reported(surface, elastic):
     with pytest.raises(ValueError, match="read-only"):
         depth[0, 0] = 1.0
     assert np.array_equal(pickle.loads(pickle.dumps(solution)).plastic_depth, depth)
-
-
-def test_a_hardness_above_the_greatest_pressure_has_the_bits_of_none(surface, elastic):
-    hard = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=2 * float(elastic.contact_pressure.max()))
-    for name in ("gap", "pressure", "contact_pressure"):
-        assert np.array_equal(getattr(hard, name), getattr(elastic, name))
-    assert hard.report["iterations"] == elastic.report["iterations"]
-    assert hard.plastic_depth.max() == 0.0 and hard.report["plastic_fraction"] == 0.0
-    assert elastic.plastic_depth is None
-    nothing = ("hardness", "hardness_map", "plastic_fraction", "plastic_depth_max", "plastic_depth_mean", "plastic_energy")
-    assert all(elastic.report[key] is None for key in nothing) and "yielded" not in repr(elastic)
 
 
 @pytest.mark.parametrize("hardness", [True, np.True_, np.ones((48, 48), bool)])
@@ -123,20 +111,6 @@ def test_an_equilibrium_that_has_yielded_has_no_stability(surface):
         asperity.stability(solution)
 
 
-def test_a_row_that_has_not_converged_leaves_no_depth(surface):
-    loads = [0.002, 0.0495, 0.002]
-    with pytest.warns(asperity.ConvergenceWarning):
-        first, heavy, last = asperity.sweep(surface, modulus=1.0, mean_pressures=loads, hardness=0.05, max_iterations=24)
-    assert first.converged and not heavy.converged and last.converged
-    # the same load leaves no more, to the tolerance
-    assert np.allclose(last.plastic_depth, first.plastic_depth, atol=1e-3 * first.plastic_depth.max())
-
-
-def test_a_share_of_contact_is_found_where_the_surface_yields(surface):
-    solution = asperity.solve(surface, modulus=1.0, hardness=0.05, contact_fraction=0.5)
-    assert solution.report["search"]["reached"] and solution.report["mean_pressure"] <= 0.5 * 0.05
-
-
 def test_a_sweep_keeps_the_depth_also_where_a_solve_was_interrupted(surface):
     given = {"modulus": 1.0, "mean_pressures": LOADS, "hardness": 0.08}
     solutions = list(asperity.sweep(surface, **given))
@@ -164,18 +138,3 @@ def test_a_sweep_keeps_the_depth_also_where_a_solve_was_interrupted(surface):
         observe[0] = Once()
     for one, other in zip(found, solutions, strict=True):
         assert np.array_equal(one.gap, other.gap) and np.array_equal(one.plastic_depth, other.plastic_depth)
-
-
-def test_a_cycle_dissipates_in_the_first_loading_alone(surface):
-    loads = [1e-4, 0.03, 1e-4, 0.03, 1e-4]
-    found = asperity.cycle(surface, modulus=1.0, mean_pressures=loads, hardness=0.1, steps=10, tolerance=1e-8)
-    columns = found.columns
-    ends = [np.flatnonzero(columns["leg"] == leg)[-1] for leg in (1, 2, 3, 4)]
-    plastic, work = columns["plastic_energy"][ends], columns["work"][ends]
-    span = columns["elastic_energy"][ends[0]] + plastic[0]
-    assert plastic[0] > 0.0 and np.allclose(plastic, plastic[0], rtol=1e-5)
-    # but for the quadrature of ten steps
-    assert abs(work[1] - plastic[0]) < 1e-2 * span and abs(work[3] - work[1]) < 1e-2 * span
-    assert columns["hardness"].tolist() == [0.1] * len(columns["leg"])
-    without = asperity.sweep(surface, modulus=1.0, mean_pressures=[0.01]).columns
-    assert not any("plastic" in name or "hardness" in name for name in without)

@@ -131,16 +131,6 @@ def test_laws_of_the_library_travel(law):
     assert law != asperity.Exponential(W, 2 * RANGE)
 
 
-def test_laws_have_their_textbook_values():
-    # Israelachvili: w = A/12πD₀²; the greatest attraction of Lennard-Jones is 1.03 w/z₀, that of Morse w/2ρ
-    assert np.isclose(-asperity.VanDerWaals(6e-20, 0.165e-9).energy(0.0), 6e-20 / (12 * np.pi * 0.165e-9**2))
-    gaps = np.linspace(1.0, 3.0, 2001)
-    assert np.isclose(asperity.LennardJones(1.0, 1.0).traction(gaps).max(), 1.026, atol=1e-3)
-    assert np.isclose(asperity.Morse(1.0, 1.0).traction(gaps - 1).max(), 0.5, atol=1e-6)
-    cut = asperity.LennardJones(1.0, 1.0, cut=True)
-    assert np.array_equal(cut.traction(gaps - 1), asperity.LennardJones(1.0, 1.0).traction(1 + (gaps - 1)))
-
-
 def test_a_table_is_read_from_a_file(tmp_path):
     np.savetxt(tmp_path / "law.txt", np.column_stack([[0.0, 1e-9, 2e-9], [50e6, 25e6, 0.0]]))
     law = asperity.Tabulated.read(tmp_path / "law.txt")
@@ -228,26 +218,6 @@ def test_a_law_in_python_may_be_cut_off(rough):
     assert np.allclose(cut.traction(gaps), built_in.traction(gaps), rtol=0, atol=1e-10 * built_in.traction(0.0))
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=cut)
     assert solution.report["law"] == "Exponential" and solution.report["cut_off"] == 0.03
-
-
-def test_a_law_that_is_cut_off_keeps_its_work_of_adhesion(rough):
-    options = {"modulus": 1.0, "mean_pressure": 1e-3}
-    works = np.full((64, 64), W)
-    for kind in (asperity.Exponential, asperity.Morse, Exponential):
-        law = asperity.CutOff(kind(W, RANGE), 2.5 * RANGE)
-        assert law.energy(0.0) == -W and law.energy(2.5 * RANGE) == 0.0
-        asperity.check_law(law, 0.05)
-        number = asperity.solve(rough, law=law, **options)
-        varying = asperity.Varying(asperity.CutOff(kind(1.0, RANGE), 2.5 * RANGE), works)
-        asperity.check_law(varying, 0.05)
-        by_map = asperity.solve(rough, law=varying, **options)
-        assert np.isclose(number.adhesive_energy, by_map.adhesive_energy, rtol=1e-6)
-        either = asperity.solve(rough, law=asperity.CutOff(asperity.Varying(kind(1.0, RANGE), works), 2.5 * RANGE), **options)
-        assert np.isclose(number.adhesive_energy, either.adhesive_energy, rtol=1e-6)
-        assert either.report["cut_off"] == 2.5 * RANGE and either.report["mu_rho_node"] == [0, 0]
-    for law, distance in ((asperity.MaugisDugdale(W, RANGE), 0.9 * RANGE), (asperity.LennardJones(W, RANGE), RANGE)):
-        with pytest.raises(ValueError, match="cut-off distance is .* at least a range of the law"):
-            asperity.CutOff(law, distance)
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -521,24 +491,6 @@ def test_a_map_of_works_with_holes_is_refused_by_its_name(rough):
     for holed in (works, np.ma.masked_array(np.full((64, 64), W), np.isnan(works))):
         with pytest.raises(ValueError, match=r"work_of_adhesion: 1 of 4096 nodes .* \(NaN\) at index \[3, 4\]: give"):
             asperity.Varying(asperity.Exponential(1.0, RANGE), holed)
-
-
-def test_springs_stand_for_the_wall(rough):
-    options = {"modulus": 1.0, "mean_pressure": 0.01}
-    hard = asperity.solve(rough, **options)
-    assert hard.report["wall_stiffness"] is None
-    off = []
-    for stiffness in (1e3, 1e4):
-        soft = asperity.solve(rough, wall=asperity.Penalty(stiffness), **options)
-        assert soft.report["wall"] == "penalty" and soft.report["wall_stiffness"] == stiffness
-        depth = np.maximum(-soft.gap, 0.0)
-        assert soft.converged and np.allclose(soft.contact_pressure, stiffness * depth, rtol=1e-9)
-        off.append(np.abs(soft.contact_pressure - hard.contact_pressure).max())
-    assert 0 < off[1] < 0.3 * off[0] and off[1] < 0.1 * hard.contact_pressure.max()
-    found = asperity.solve(rough, wall=asperity.Uzawa(50.0), tolerance=1e-8, **options)
-    reference = asperity.solve(rough, tolerance=1e-8, **options)
-    assert found.converged and np.array_equal(found.contact, reference.contact)
-    assert np.allclose(found.gap, reference.gap, rtol=0, atol=1e-6 * reference.gap.max())
 
 
 def test_walls_of_springs_are_values_and_refuse_what_they_cannot_do(rough):

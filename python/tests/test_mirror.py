@@ -50,19 +50,3 @@ def test_an_accuracy_refines_the_original_too(mirrored):
     right = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, accuracy=0.2)
     assert right.gap.shape == right.heights.shape == tuple(right.report["shape"])
     assert right.report["shape"] == [nodes // 2 for nodes in right.report["solved_shape"]]
-
-
-def test_a_force_is_that_on_the_original(mirrored):
-    part = asperity.solve(mirrored, modulus=1.0, normal_force=0.002, tolerance=1e-9)
-    whole = asperity.solve(mirrored, modulus=1.0, normal_force=0.008, whole=True, tolerance=1e-9)
-    assert part.normal_force == part.report["control_value"] == pytest.approx(0.002)
-    assert whole.normal_force == pytest.approx(0.008) and part.mean_pressure == pytest.approx(whole.mean_pressure)
-    assert part.contact.sum() == whole.contact.sum() / 4
-    columns = asperity.sweep(mirrored, modulus=1.0, normal_forces=[0.001, 0.002]).columns
-    np.testing.assert_allclose(columns["normal_force"], [0.001, 0.002])
-    np.testing.assert_array_equal(columns["control_value"], [0.001, 0.002])
-    spring = (0.3, part.mean_gap - part.normal_force / 0.3)
-    sprung = asperity.solve(mirrored, modulus=1.0, spring=spring)
-    assert sprung.normal_force == pytest.approx(0.002) and sprung.report["spring_stiffness"] == 0.3
-    # at the load of the solution, and at another one with the same gap
-    assert asperity.stability(sprung).verdict == asperity.stability(part).verdict == "stable"

@@ -25,25 +25,11 @@ def test_two_surfaces_are_the_one_between_them(pair):
     np.testing.assert_array_equal(both.heights, between)
     np.testing.assert_array_equal(both.gap, pressed(between, lengths=1.0).gap)
     assert (both.report["against"], both.report["shift"], both.report["against_modulus"]) == ("array", [0, 0], None)
-    # whole nodes are rolled, parts of nodes are phases, here of waves that the grid resolves
-    moved = pressed(one, against=other, shift=(3 / 32, -1 / 32))
+    assert both.against_displacement is None
+    moved = pressed(one, against=other, shift=(3 / 32, -1 / 32), against_modulus=2.0)
     rolled = np.roll(np.asarray(other)[::-1], (3, -1), (0, 1))
     np.testing.assert_array_equal(moved.heights, np.asarray(one) + rolled)
-    part = pressed(one, against=other, shift=0.4 / 32).heights - np.asarray(one)
-    phases = np.exp(-2j * np.pi * np.fft.fftfreq(32) * 0.4)[:, None]
-    expected = np.fft.ifft2(np.fft.fft2(np.asarray(other)[::-1]) * phases).real
-    np.testing.assert_allclose(part, expected, atol=1e-15)
-
-
-@pytest.mark.filterwarnings("ignore:flat")
-def test_congruent_surfaces_close_without_a_load(pair):
-    one = pair[0]
-    fits = -np.asarray(one)[::-1]
-    # the second one elastic or rigid
-    for given in ({}, {"against_modulus": 2.0}):
-        closed = pressed(one, against=fits, mean_pressure=0.0, **given)
-        assert (closed.contact_fraction, closed.mean_gap) == (1.0, 0.0)
-    assert pressed(one, against=fits, shift=1 / 32, mean_pressure=1e-6).contact_fraction < 0.1
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(moved)).against_displacement, moved.against_displacement)
 
 
 def test_arrays_of_images_files_and_lines_face_each_other(pair, tmp_path):
@@ -57,23 +43,6 @@ def test_arrays_of_images_files_and_lines_face_each_other(pair, tmp_path):
     assert file.report["against"].endswith("other.npy")
     line = pressed(one[:, 0], lengths=1.0, against=other[:, 0])
     np.testing.assert_array_equal(line.heights, one[:, 0] + other[::-1, 0])
-
-
-@pytest.mark.filterwarnings("ignore:window-edge")
-def test_each_body_moves_by_its_compliance(pair):
-    one, other = pair
-    rigid = pressed(one, against=other)
-    np.testing.assert_array_equal(rigid.displacement, rigid.gap + rigid.heights)
-    assert rigid.against_displacement is None
-    # beyond a free window the pressure vanishes to the tolerance of the solve
-    for given, tolerance in (({}, 1e-12), ({"boundary": "free"}, 1e-7)):
-        both = pressed(one, against=other, modulus=3.0, against_modulus=6.0, **given)
-        single = pressed(one, against=other, modulus=2.0, **given)
-        np.testing.assert_array_equal(both.gap, single.gap)
-        np.testing.assert_allclose(both.displacement, 2 * both.against_displacement, atol=1e-15)
-        rest = both.displacement + both.against_displacement - both.gap - both.heights
-        assert np.ptp(rest) < tolerance
-        np.testing.assert_array_equal(pickle.loads(pickle.dumps(both)).displacement, both.displacement)
 
 
 def test_tables_stability_and_accuracy_have_both(pair, tmp_path):
@@ -92,23 +61,6 @@ def test_tables_stability_and_accuracy_have_both(pair, tmp_path):
     np.testing.assert_allclose(
         right.displacement + right.against_displacement, right.gap + right.heights - (right.gap + right.heights).mean(), atol=1e-12
     )
-
-
-def test_a_shifted_start_ends_in_the_same_contact_in_fewer_steps(pair):
-    one, other = pair
-    before = pressed(one, against=other, nested=False)
-    cold = pressed(one, against=other, shift=0.5 / 32, nested=False)
-    warm = pressed(one, against=other, shift=0.5 / 32, start=before)
-    assert warm.operator_applications < cold.operator_applications
-    np.testing.assert_allclose(warm.gap, cold.gap, atol=1e-5 * cold.gap.max())
-
-
-def test_originals_of_mirrored_maps_face_each_other(pair):
-    one, other = (asperity.prepare(surface, mirror=True) for surface in pair)
-    both = pressed(one, against=other)
-    between = asperity.prepare(np.asarray(pair[0]) + np.asarray(pair[1])[::-1], 1.0, mirror=True)
-    np.testing.assert_array_equal(both.gap, pressed(between).gap)
-    np.testing.assert_array_equal(both.heights, np.asarray(pair[0]) + np.asarray(pair[1])[::-1])
 
 
 @pytest.mark.parametrize(

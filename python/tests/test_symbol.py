@@ -73,23 +73,6 @@ def test_an_anisotropic_body_carries_a_wave_by_the_stiffness_of_that_wave():
         np.testing.assert_allclose(flat.pressure - 1.0, 0.01 * stiffness * along, atol=1e-6)
 
 
-def test_a_plate_on_springs_bends_as_a_plate_does():
-    x = 2 * np.pi * np.arange(64) / 64
-    body = asperity.Symbol(lambda q: 3.0 + 1e-3 * q**4)
-    with pytest.warns(asperity.InputWarning, match="half the wavelength is 16 times as stiff.*use the contact fraction$"):
-        flat = asperity.solve(0.01 * np.cos(2 * x), 1.0, modulus=1.0, mean_pressure=1.0, body=body)
-    expected = 1.0 + 0.01 * (3.0 + 1e-3 * (4 * np.pi) ** 4) * np.cos(2 * x)
-    np.testing.assert_allclose(flat.pressure, expected, atol=1e-6)
-
-
-def test_springs_alone_have_one_stiffness():
-    heights = 1e-3 * np.random.default_rng(2).standard_normal((16, 16))
-    with pytest.warns(asperity.InputWarning, match="thin-body"):
-        body = asperity.Symbol(lambda q: np.full_like(q, 7.0))
-        found = asperity.solve(heights, 1.0, modulus=1.0, mean_pressure=0.05, body=body)
-    np.testing.assert_allclose(found.pressure - 0.05, 7.0 * (heights - heights.mean()), atol=1e-7)
-
-
 def test_bits_do_not_depend_on_threads_and_nested_grids_ask_on_each_grid():
     rough = asperity.surface.self_affine(256, 1.0, rms_slope=0.1, k_s=16, seed=1)
     asked = []

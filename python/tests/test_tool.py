@@ -93,33 +93,6 @@ def test_fields_have_the_same_bits_and_the_report_the_same_keys(tmp_path, tool, 
     same(tmp_path / "out", solution)
 
 
-def test_nested_grids_are_those_of_the_tool(tmp_path, tool):
-    rough = asperity.surface.self_affine(256, 1.0, rms_slope=0.1, k_l=2, k_s=32, seed=3)
-    np.save(tmp_path / "heights.npy", rough.heights)
-    # fmt: off
-    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--mean-pressure", 0.02, "--nested", "--no-pictures",
-          "--out", "out")
-    # fmt: on
-    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.02, nested=True)
-    same(tmp_path / "out", solution)
-    assert [level["shape"] for level in solution.report["levels"]] == [[64, 64], [128, 128], [256, 256]]
-    assert "with coarser grids" in repr(solution)
-
-
-@pytest.mark.parametrize("load", ["approach", "spring"])
-def test_a_tip_is_that_of_the_tool(tmp_path, tool, sphere, load):
-    np.save(tmp_path / "heights.npy", sphere)
-    given = {"approach": ["--approach", 0.01], "spring": ["--spring-stiffness", 0.1, "--spring-position", 0.05]}
-    # fmt: off
-    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--boundary", "free", "--no-pictures", "--out", "out",
-          "--law", "exponential", "--work-of-adhesion", 1e-4, "--range", 8e-3, *given[load])
-    # fmt: on
-    law = asperity.Exponential(1e-4, 8e-3)
-    keyword = {"approach": {"approach": 0.01}, "spring": {"spring": (0.1, 0.05)}}
-    solution = asperity.solve(sphere, 1.0, modulus=1.0, boundary="free", law=law, **keyword[load])
-    same(tmp_path / "out", solution)
-
-
 def table(path):
     """The rows of a table of the tool."""
     with open(path, newline="") as file:
@@ -147,17 +120,6 @@ def test_a_sweep_has_the_columns_of_the_tool(tmp_path, tool, rough, law):
           "--law", "exponential", "--work-of-adhesion", law.work_of_adhesion, "--range", law.range)
     # fmt: on
     columns = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01, 0.02, 0.015], law=law).columns
-    same_columns(table(tmp_path / "sweep.csv"), columns)
-
-
-def test_a_sweep_without_a_wall_has_the_columns_of_the_tool(tmp_path, tool, rough):
-    np.save(tmp_path / "heights.npy", rough.heights)
-    # fmt: off
-    asked(tool, tmp_path, "sweep", "--heights", "heights.npy", "--mean-gaps", "0.02,0.015", "--out", "sweep.csv",
-          "--law", "morse", "--wall", "none", *GIVEN)
-    # fmt: on
-    law = asperity.Morse(WORK, REACH)
-    columns = asperity.sweep(rough, modulus=1.0, mean_gaps=[0.02, 0.015], law=law, wall="none").columns
     same_columns(table(tmp_path / "sweep.csv"), columns)
 
 
@@ -235,37 +197,6 @@ def test_a_cycle_without_a_wall_has_the_columns_of_the_tool(tmp_path, tool):
         smallest_step=1e-3,
     )
     same_columns(table(tmp_path / "cycle.csv"), cycle.columns)
-
-
-@pytest.mark.parametrize(
-    ("of", "load"),
-    [("area", "mean_pressure"), ("gap", "mean_pressure"), ("pressure", "mean_gap")],
-)
-@pytest.mark.parametrize("precision", ["f64", "f32"])
-def test_an_accuracy_is_that_of_the_tool(tmp_path, tool, of, load, precision):
-    rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_l=1, k_r=2, k_s=8, seed=1)
-    np.save(tmp_path / "heights.npy", rough.heights)
-    held = {"mean_pressure": 5e-3, "mean_gap": 0.01}[load]
-    # fmt: off
-    asked(tool, tmp_path, "solve", "--heights", "heights.npy", f"--{load.replace('_', '-')}", held, "--accuracy", 0.03,
-          "--accuracy-of", of, "--precision", precision, "--no-pictures", "--out", "out")
-    # fmt: on
-    options = {"modulus": 1.0, load: held, "accuracy": 0.03, "accuracy_of": of, "precision": precision}
-    solution = asperity.solve(rough, **options)
-    same(tmp_path / "out", solution)
-    assert solution.report["accuracy"] == {"wanted": 0.03, "of": of, "reached": True}
-
-
-def test_an_accuracy_of_a_tip_is_that_of_the_tool(tmp_path, tool, sphere):
-    np.save(tmp_path / "heights.npy", sphere)
-    # fmt: off
-    asked(tool, tmp_path, "solve", "--heights", "heights.npy", "--boundary", "free", "--approach", 2e-3,
-          "--accuracy", 0.001, "--stiffness", "--no-pictures", "--out", "out")
-    # fmt: on
-    options = {"modulus": 1.0, "boundary": "free", "approach": 2e-3, "stiffness": True}
-    solution = asperity.solve(sphere, 1.0, accuracy=0.001, **options)
-    same(tmp_path / "out", solution)
-    assert solution.heights.shape == tuple(solution.report["levels"][-1]["shape"]) > (64, 64)
 
 
 @pytest.mark.parametrize("options", [[], ["--nested"]])
