@@ -1,5 +1,6 @@
 //! The columns of a table as people read them.
 
+use asperity_scene::column::{MEAN_PRESSURE, NORMAL_FORCE};
 use asperity_scene::legs::value;
 use asperity_scene::{Account, Measure, key};
 use serde_json::Value;
@@ -69,5 +70,5 @@ pub fn spaced(name: &str) -> String {
 
 /// The nominal area of a row with a load that is not zero.
 fn area(row: &Value) -> Option<f64> {
-    Some(value(row, "normal_force") / value(row, "mean_pressure")).filter(|area| area.is_finite())
+    Some(value(row, NORMAL_FORCE) / value(row, MEAN_PRESSURE)).filter(|area| area.is_finite())
 }

@@ -1,5 +1,6 @@
 //! `asperity cycle`: a path of equilibria through loading and unloading, with its jumps.
 
+use asperity_scene::column::{APPROACH, MEAN_GAP, MEAN_PRESSURE, NORMAL_FORCE};
 use std::path::PathBuf;
 
 use asperity_scene::legs::value;
@@ -118,7 +119,7 @@ impl Options {
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limits: Option<CycleLimits>) -> Outcome<()> {
         let (rows, units, free) = (&table.session.read()?, table.session.units(), table.is_free());
-        let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
+        let (x, y) = if free { (APPROACH, NORMAL_FORCE) } else { (MEAN_GAP, MEAN_PRESSURE) };
         let limit = limits.as_ref().map(|limits| limits.limit);
         let followed = Followed { rows, units, free, axes: [x, y], limit, limits };
         table.options.manner.printing.report(|| table.report(followed.report()));
@@ -178,7 +179,7 @@ impl Followed<'_> {
     /// The keys of the report.
     fn report(&self) -> Value {
         let last = self.rows.last().cloned().unwrap_or_default();
-        let kept = ["mean_gap", "mean_pressure", "normal_force", "approach"];
+        let kept = [MEAN_GAP, MEAN_PRESSURE, NORMAL_FORCE, APPROACH];
         let event = |&k: &usize| {
             let of_step = ["leg", "direction", "control_value", "event", "energy_drop"];
             let mut found = cells(&self.rows[k], of_step.iter().chain(&kept));
@@ -187,7 +188,7 @@ impl Followed<'_> {
             }
             Value::Object(found)
         };
-        let [tension, force] = ["mean_pressure", "normal_force"].map(|name| -self.least(name));
+        let [tension, force] = [MEAN_PRESSURE, NORMAL_FORCE].map(|name| -self.least(name));
         let of_cycle = ["work", "dissipated", "plastic_energy", "imbalance", "work_error"];
         let mut found = Map::from_iter([
             ("greatest_tension".to_owned(), json!((tension > 0.0).then_some(tension))),
@@ -238,7 +239,7 @@ impl Followed<'_> {
 
     /// The greatest tension, as a pressure where there is an area, and as a force.
     fn tension(&self) -> Vec<String> {
-        let [tension, force] = ["mean_pressure", "normal_force"].map(|name| -self.least(name));
+        let [tension, force] = [MEAN_PRESSURE, NORMAL_FORCE].map(|name| -self.least(name));
         if tension <= 0.0 {
             return Vec::new();
         }

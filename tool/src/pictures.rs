@@ -1,5 +1,6 @@
 //! The pictures that commands draw: maps of contact and pressure, and charts of tables.
 
+use asperity_scene::column::{APPROACH, CONTACT_FRACTION, MEAN_GAP, MEAN_PRESSURE, NORMAL_FORCE};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -177,22 +178,22 @@ pub fn chart_of_loads(
     paper: Paper,
 ) -> asperity::Result<Picture> {
     let has = |column: &str| rows.iter().any(|row| !row[column].is_null());
-    let area = "contact_fraction";
+    let area = CONTACT_FRACTION;
     let (x, y) = match rows.first().and_then(|row| row[key!(Account, control)].as_str()) {
-        _ if has("wanted_contact_fraction") => ("mean_pressure", area),
-        Some("approach" | "spring") if has("approach") => ("approach", "normal_force"),
-        Some("mean-gap" | "spring") => ("mean_gap", "mean_pressure"),
-        Some("normal-force") => ("normal_force", area),
-        _ => ("mean_pressure", area),
+        _ if has("wanted_contact_fraction") => (MEAN_PRESSURE, area),
+        Some("approach" | "spring") if has(APPROACH) => (APPROACH, NORMAL_FORCE),
+        Some("mean-gap" | "spring") => (MEAN_GAP, MEAN_PRESSURE),
+        Some("normal-force") => (NORMAL_FORCE, area),
+        _ => (MEAN_PRESSURE, area),
     };
     let (x, y) = match abscissa(rows) {
-        Some(x) if has("pull_off_force") && has("approach") => (x, "pull_off_force"),
+        Some(x) if has("pull_off_force") && has(APPROACH) => (x, "pull_off_force"),
         Some(x) if has("pull_off_pressure") => (x, "pull_off_pressure"),
-        Some(x) => (x, if y == area && has("wanted_contact_fraction") { "mean_pressure" } else { area }),
+        Some(x) => (x, if y == area && has("wanted_contact_fraction") { MEAN_PRESSURE } else { area }),
         None => (x, y),
     };
     let Some(theories) = theories else { return chart_of_columns(rows, x, y, units, paper) };
-    let pressures = || rows.iter().map(|row| value(row, "mean_pressure"));
+    let pressures = || rows.iter().map(|row| value(row, MEAN_PRESSURE));
     let high = pressures().fold(0.0, f64::max);
     let low = pressures().filter(|pressure| *pressure > 1e-3 * high).fold(high, f64::min);
     let areas = [("counted", area), ("corrected for the edge", "corrected_contact_fraction")];

@@ -14,7 +14,7 @@ use asperity_scene::{
     Account, After, Case, Found, Inputs, Load, Part, Scalar, Session, Skin, Way, csv, gap_to_write, rows, shortfalls,
 };
 use ndarray::Array2;
-use serde_json::{Value, json};
+use serde_json::{Map as Object, Value, json};
 
 use crate::lines::START;
 
@@ -110,12 +110,14 @@ impl<T: Scalar> State<T> {
         });
         let rows = rows(&[account], self.session.units(), Skin::Keywords);
         let rows: Vec<_> = rows.into_iter().map(|(name, texts)| (name, texts.concat())).collect();
-        let mut ends = json!({
-            "gap": of(&part.gap),
-            "pressure": of(pressure),
-            "contact_pressure": of(&part.contact_pressure),
-        });
-        part.plastic_depth.iter().for_each(|depth| ends["plastic_depth"] = json!(of(depth)));
+        let ends = [
+            ("gap", Some(of(&part.gap))),
+            ("pressure", Some(of(pressure))),
+            ("contact_pressure", Some(of(&part.contact_pressure))),
+            ("plastic_depth", part.plastic_depth.as_ref().map(&of)),
+        ];
+        let ends: Object<_, _> =
+            ends.into_iter().filter_map(|(name, end)| Some((name.to_owned(), json!(end?)))).collect();
         let told: Vec<_> = shortfalls(account, Skin::Keywords).into_iter().map(|(_, text)| text).collect();
         Ok(json!({
             "account": account,
@@ -152,7 +154,10 @@ impl<T: Scalar> State<T> {
         solved.look()?;
         let last = Last { found: solved.found, account: solved.account, start: kept };
         let mut answer = self.answer(&last)?;
-        answer["started"] = if started { "last" } else { "default" }.into();
+        let from = if started { "last" } else { "default" };
+        if let Value::Object(answer) = &mut answer {
+            answer.insert("started".to_owned(), from.into());
+        }
         self.last = Some(last);
         Ok((answer, started && adheres))
     }

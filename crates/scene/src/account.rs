@@ -4,6 +4,7 @@
 //! reports and the columns of tables come from there, and the types and attributes in Python and the tables of the
 //! documents. The lists below [`Account`] say which tables, rows of summaries and headings of pages have it.
 
+pub mod column;
 pub mod contact;
 mod displacement;
 mod entries;
@@ -47,6 +48,7 @@ pub use self::sentences::{shortfalls, unbalanced};
 pub use self::slopes::Slopes;
 pub(crate) use self::warnings::warnings_of_input;
 pub use self::words::corrected;
+use crate::key;
 use crate::key::{
     ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Told, record, worded,
 };
@@ -255,36 +257,36 @@ pub(crate) const SUMMARY: &[(&str, Line)] = &[
     ("part of the mirrored map", Words(words::part)),
     ("side lengths", Words(words::sides)),
     ("body", Words(|s, units, _| s.inputs.elastic.in_words(units))),
-    ("contact", Of("contact_fraction")),
+    ("contact", Of(key!(Account, contact_fraction))),
     ("corrected for its edge", Words(words::corrected_area)),
-    ("by JKR", Of("jkr_contact_fraction")),
+    ("by JKR", Of(key!(Account, jkr_contact_fraction))),
     ("nodes in contact", Words(words::nodes_in_contact)),
     ("", Alone(words::patches)),
     ("wanted", Words(words::wanted)),
-    ("mean gap", Of("mean_gap")),
-    ("mean pressure", Of("mean_pressure")),
-    ("normal force", Of("normal_force")),
-    ("approach", Of("approach")),
-    ("traction at the edge", Of("edge_traction")),
-    ("net pressure", Of("net_pressure")),
-    ("mean contact pressure", Of("mean_contact_pressure")),
+    ("mean gap", Of(key!(Account, mean_gap))),
+    ("mean pressure", Of(key!(Account, mean_pressure))),
+    ("normal force", Of(key!(Account, normal_force))),
+    ("approach", Of(key!(Account, approach))),
+    ("traction at the edge", Of(key!(Account, edge_traction))),
+    ("net pressure", Of(key!(Account, net_pressure))),
+    ("mean contact pressure", Of(key!(Account, mean_contact_pressure))),
     ("least pressure", Words(words::least_pressure)),
-    ("greatest pressure", Of("max_pressure")),
-    ("elastic energy per area", Of("elastic_energy")),
-    ("adhesive energy per area", OfAdhesion("adhesive_energy")),
+    ("greatest pressure", Of(key!(Account, max_pressure))),
+    ("elastic energy per area", Of(key!(Account, elastic_energy))),
+    ("adhesive energy per area", OfAdhesion(key!(Account, adhesive_energy))),
     ("range of the grid", Words(words::range_of_the_grid)),
-    ("mu_rho", OfAdhesion("mu_rho")),
-    ("yielded", Of("plastic_fraction")),
-    ("greatest plastic depth", Of("plastic_depth_max")),
-    ("mean plastic depth", Of("plastic_depth_mean")),
-    ("plastic work per area", Of("plastic_energy")),
+    ("mu_rho", OfAdhesion(key!(Account, mu_rho))),
+    ("yielded", Of(key!(Account, plastic_fraction))),
+    ("greatest plastic depth", Of(key!(Account, plastic_depth_max))),
+    ("mean plastic depth", Of(key!(Account, plastic_depth_mean))),
+    ("plastic work per area", Of(key!(Account, plastic_energy))),
     ("contact stiffness", Words(words::stiffness)),
     ("conductance per area", Words(words::conductance)),
     ("gap along x", Words(|s, units, _| words::narrowest(s, Axis::X, units))),
     ("transmissivity along x", Words(|s, units, _| words::transmissivity(s, Axis::X, units))),
     ("gap along y", Words(|s, units, _| words::narrowest(s, Axis::Y, units))),
     ("transmissivity along y", Words(|s, units, _| words::transmissivity(s, Axis::Y, units))),
-    ("branch", OfAdhesion("branch")),
+    ("branch", OfAdhesion(key!(Account, branch))),
     ("", Alone(words::other_branch)),
     ("certified error", Words(|s, _, _| Some(format!("{:.1e}", s.relative_error)))),
     ("stability", Words(words::stability)),
@@ -292,12 +294,12 @@ pub(crate) const SUMMARY: &[(&str, Line)] = &[
     ("its lower bound", Words(|s, _, _| Some(plain(s.stability?.lower_bound)))),
     ("energy drop in leaving", Words(words::energy_drop)),
     ("error bound", Words(words::error_bound)),
-    ("iterations", Of("iterations")),
-    ("operator applications", Of("operator_applications")),
+    ("iterations", Of(key!(Account, iterations))),
+    ("operator applications", Of(key!(Account, operator_applications))),
     ("with coarser grids", Words(|s, _, _| Some(format!("{:.1}", s.equivalent_applications?)))),
     ("error of the grid", Words(|s, _, skin| s.levels.as_ref().map(|_| worded(&estimate(s), skin)))),
-    ("time", Of("seconds")),
-    ("status", Of("status")),
+    ("time", Of(key!(Account, seconds))),
+    ("status", Of(key!(Account, status))),
 ];
 
 /// The approach that a load holds.

@@ -1,5 +1,6 @@
 //! The page of a table of a sweep, a cycle or a study.
 
+use asperity_scene::column::{APPROACH, CONTACT_FRACTION, MEAN_GAP, MEAN_PRESSURE, NORMAL_FORCE};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -124,7 +125,7 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
             let found = if found.is_nan() { value(last, "control_value") } else { found };
             let is_there = dimension.is_none() || (found - to).abs() <= 1e-6 * to.abs();
             // a withdrawal ends where the surfaces are apart
-            let shares = ["contact_fraction", "attractive_fraction"].map(|share| value(last, share));
+            let shares = [CONTACT_FRACTION, "attractive_fraction"].map(|share| value(last, share));
             let is_apart = last[key!(Step, direction)] == "withdrawal" && shares == [0.0; 2];
             let is_over = leg as usize + 1 == count && (is_there || is_apart);
             (!is_over).then(|| format!("it ends on leg {leg} of {}", count - 1))
@@ -147,18 +148,18 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
     let told = |row: &Value, column: &str| columns.number(column, columns.value(row, column));
     let mut figures = Vec::new();
     let least = rows.iter().enumerate().min_by(|(_, a), (_, b)| {
-        let [a, b] = [a, b].map(|row| value(row, "normal_force"));
+        let [a, b] = [a, b].map(|row| value(row, NORMAL_FORCE));
         a.total_cmp(&b)
     });
-    if let Some((k, row)) = least.filter(|(_, row)| value(row, "normal_force") < 0.0) {
-        let (at, place) = if free { ("an approach", "approach") } else { ("a mean gap", "mean_gap") };
+    if let Some((k, row)) = least.filter(|(_, row)| value(row, NORMAL_FORCE) < 0.0) {
+        let (at, place) = if free { ("an approach", APPROACH) } else { ("a mean gap", MEAN_GAP) };
         // what the surfaces come to in an approach, or still bear at the end, is no pull-off
         let is_lost = row[key!(Step, direction)] == "withdrawal" && k + 1 < rows.len();
         let name = if is_lost { "pull-off force" } else { "greatest tensile force" };
-        let force = columns.number("normal_force", -value(row, "normal_force"));
+        let force = columns.number(NORMAL_FORCE, -value(row, NORMAL_FORCE));
         figures.push((name.to_owned(), format!("at least {force}, at {at} of {}", told(row, place))));
         if !free {
-            let tension = columns.number("mean_pressure", -value(row, "mean_pressure"));
+            let tension = columns.number(MEAN_PRESSURE, -value(row, MEAN_PRESSURE));
             figures.push(("greatest tension".to_owned(), format!("at least {tension}")));
         }
     }
@@ -186,30 +187,30 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
     let is_there = |column: &str| rows.iter().any(|row| !row[column].is_null());
     let drawn = |x: &str, label: &str, ys: &[(&str, &str)]| chart(rows, (x, label), ys, Vec::new(), units, FINE.into());
     let searched = is_there("wanted_contact_fraction");
-    let load = if rows[0]["control"] == "normal-force" && !searched { "normal_force" } else { "mean_pressure" };
-    let free = is_there("approach");
-    let gap = if free { "approach" } else { "mean_gap" };
+    let load = if rows[0]["control"] == "normal-force" && !searched { NORMAL_FORCE } else { MEAN_PRESSURE };
+    let free = is_there(APPROACH);
+    let gap = if free { APPROACH } else { MEAN_GAP };
     // the curves of a study have their own names
     let (study, along) = (rows[0][CASE].is_u64(), abscissa(rows));
     let x = along.unwrap_or(if cycle { gap } else { load });
     let mut charts = Vec::new();
     if cycle && rows[0]["control"] == "spring" {
         // what is measured
-        let y = if free { "normal_force" } else { "mean_pressure" };
+        let y = if free { NORMAL_FORCE } else { MEAN_PRESSURE };
         charts.push(drawn("control_value", "position of the spring", &[("", y)])?);
     }
-    let areas = [("counted", "contact_fraction"), ("corrected", "corrected_contact_fraction")];
+    let areas = [("counted", CONTACT_FRACTION), ("corrected", "corrected_contact_fraction")];
     charts.push(match cycle || along.is_some() || !differs(load) {
         true => chart_of_loads(rows, units, None, FINE.into())?,
         false if study || !is_there(areas[1].1) => drawn(load, &spaced(load), &[("", areas[0].1)])?,
         false => drawn(load, &spaced(load), &areas)?,
     });
     let leaks = [("along x", "transmissivity_x_upper"), ("along y", "transmissivity_y_upper")];
-    let mut pairs = vec![("closure", "mean_pressure")];
+    let mut pairs = vec![("closure", MEAN_PRESSURE)];
     match along {
-        Some(x) if is_there("pull_off_pressure") => pairs.extend([(x, "contact_fraction"), (x, gap)]),
+        Some(x) if is_there("pull_off_pressure") => pairs.extend([(x, CONTACT_FRACTION), (x, gap)]),
         Some(x) => pairs.push((x, gap)),
-        None if !cycle => pairs.push((load, "mean_gap")),
+        None if !cycle => pairs.push((load, MEAN_GAP)),
         None => {}
     }
     pairs.extend(["contact_stiffness", "electrical_conductance", "thermal_conductance"].map(|y| (x, y)));
@@ -219,7 +220,7 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
         charts.push(drawn(x, &spaced(x), &leaks)?);
     }
     if along.is_none() {
-        pairs.extend(["contact_fraction", if cycle { "dissipated" } else { "elastic_energy" }].map(|y| (gap, y)));
+        pairs.extend([CONTACT_FRACTION, if cycle { "dissipated" } else { "elastic_energy" }].map(|y| (gap, y)));
     }
     // what is the same in all rows needs no curve
     for (x, y) in pairs.into_iter().filter(|(x, y)| differs(x) && differs(y)) {
@@ -255,8 +256,8 @@ fn units_of_table(header: &[String], scene: Option<&str>) -> Units {
         in_header.or_else(in_scene).map(str::to_owned)
     };
     Units {
-        length: unit("mean_gap", "length-unit"),
-        pressure: unit("mean_pressure", "pressure-unit"),
-        force: unit("normal_force", "force-unit"),
+        length: unit(MEAN_GAP, "length-unit"),
+        pressure: unit(MEAN_PRESSURE, "pressure-unit"),
+        force: unit(NORMAL_FORCE, "force-unit"),
     }
 }

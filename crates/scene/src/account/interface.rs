@@ -1,5 +1,6 @@
 //! The law of an interface over the load, as codes of finite elements read it.
 
+use crate::account::column::{CONTACT_FRACTION, MEAN_PRESSURE};
 use asperity::Surface;
 use serde_json::Value;
 
@@ -58,7 +59,7 @@ impl Code {
             Some(rest) => rest.lines().nth(2).and_then(|line| line.strip_prefix("** ")),
             None => text.strip_prefix("% ").or(text.strip_prefix("# ")),
         };
-        columns.is_some_and(|columns| ["closure", "mean_pressure"].iter().any(|name| columns.starts_with(name)))
+        columns.is_some_and(|columns| ["closure", MEAN_PRESSURE].iter().any(|name| columns.starts_with(name)))
     }
 
     /// The files of the rows of a table, with or without adhesion: the ends of their names, and their texts. `name`
@@ -105,7 +106,7 @@ fn abaqus(functions: &[Function], name: &str, units: &Units) -> String {
     let mut text = format!("*SURFACE INTERACTION, NAME={}\n", label(name));
     for Function { columns, points, .. } in functions {
         let keyword = match columns[1] {
-            "mean_pressure" => "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR",
+            MEAN_PRESSURE => "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR",
             "electrical_conductance" => "*GAP ELECTRICAL CONDUCTANCE, PRESSURE",
             "thermal_conductance" => "*GAP CONDUCTANCE, PRESSURE",
             // there is no keyword for a leakage
@@ -130,7 +131,7 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
     let number = |row: &Value, name: &str| row[name].as_f64();
     let kind = Conductors::COLUMNS.into_iter().find(|kind| rows.iter().any(|row| number(row, kind).is_some()));
     let state = |row: &Value| {
-        let at = (number(row, "closure")?, number(row, "mean_pressure")?);
+        let at = (number(row, "closure")?, number(row, MEAN_PRESSURE)?);
         Some((at.0, at.1, kind.and_then(|kind| number(row, kind))))
     };
     let mut states: Vec<_> = rows.iter().filter_map(state).collect();
@@ -138,8 +139,8 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
         states.reverse();
     }
     if let Some(two) = states.windows(2).find(|two| two[1].0 <= two[0].0 || two[1].1 <= two[0].1) {
-        let full = rows.iter().filter(|row| number(row, "contact_fraction") == Some(1.0));
-        let mut full: Vec<_> = full.filter_map(|row| number(row, "mean_pressure")).collect();
+        let full = rows.iter().filter(|row| number(row, CONTACT_FRACTION) == Some(1.0));
+        let mut full: Vec<_> = full.filter_map(|row| number(row, MEAN_PRESSURE)).collect();
         full.sort_by(f64::total_cmp);
         if let [least, _, ..] = full[..] {
             return Err(format!(
@@ -171,23 +172,23 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
     let states: Vec<_> = std::iter::once(origin).chain(states.split_off(first)).collect();
     let pressure = Function {
         name: "pressure",
-        columns: vec!["closure", "mean_pressure"],
+        columns: vec!["closure", MEAN_PRESSURE],
         points: states.iter().map(|state| vec![state.0, state.1]).collect(),
     };
     let mut all = vec![pressure];
     if let Some(kind) = kind {
         let points = states.iter().filter_map(|state| Some(vec![state.1, state.2?])).collect();
-        all.push(Function { name: "conductance", columns: vec!["mean_pressure", kind], points });
+        all.push(Function { name: "conductance", columns: vec![MEAN_PRESSURE, kind], points });
     }
     let leak = |row: &Value| {
-        let pressure = number(row, "mean_pressure").filter(|pressure| *pressure >= 0.0)?;
+        let pressure = number(row, MEAN_PRESSURE).filter(|pressure| *pressure >= 0.0)?;
         let bounds = LEAKAGE.into_iter().map(|name| number(row, name));
         std::iter::once(Some(pressure)).chain(bounds).collect::<Option<Vec<_>>>()
     };
     let mut points: Vec<_> = rows.iter().filter_map(leak).collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     if !points.is_empty() {
-        let columns = std::iter::once("mean_pressure").chain(LEAKAGE).collect();
+        let columns = std::iter::once(MEAN_PRESSURE).chain(LEAKAGE).collect();
         all.push(Function { name: "transmissivity", columns, points });
     }
     Ok(all)

@@ -1,5 +1,6 @@
 //! Theories of rough surfaces next to solves in a chart.
 
+use crate::account::column::{CONTACT_FRACTION, MEAN_GAP, MEAN_PRESSURE, NORMAL_FORCE};
 use asperity::Surface;
 use asperity::exact::{GreenwoodWilliamson, Persson};
 use asperity::surface::{Psd, SurfaceStatistics};
@@ -63,18 +64,18 @@ impl Theories {
 
     /// The curves of column `y` of a sweep over column `x`, between two mean pressures; none where no theory has both.
     pub fn curves(&self, (x, y): (&str, &str), low: f64, high: f64) -> Vec<Curve> {
-        let force = if x == "normal_force" { self.area } else { 1.0 };
+        let force = if x == NORMAL_FORCE { self.area } else { 1.0 };
         let curve = |found: &dyn Fn(f64) -> asperity::Result<f64>| -> Vec<(f64, f64)> {
             let pressures = (0..=POINTS).map(|k| low * (high / low).powf(k as f64 / POINTS as f64));
             let points = pressures.filter_map(|pressure| Some((force * pressure, found(pressure).ok()?)));
             points.filter(|(_, found)| *found > 0.0).collect()
         };
         match (x, y) {
-            ("mean_gap", "mean_pressure") => {
+            (MEAN_GAP, MEAN_PRESSURE) => {
                 let points = curve(&|pressure| self.persson.mean_gap(pressure));
                 vec![("Persson", points.into_iter().map(|(pressure, gap)| (gap, pressure)).collect())]
             }
-            ("mean_pressure" | "normal_force", "contact_fraction") => vec![
+            (MEAN_PRESSURE | NORMAL_FORCE, CONTACT_FRACTION) => vec![
                 ("Persson", curve(&|pressure| self.persson.contact_fraction(pressure))),
                 (
                     "Greenwood and Williamson, for light loads",

@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::account::{Inputs, Slopes};
 use crate::hash::Hash;
+use crate::key;
 use crate::key::Adhesion;
 
 /// The inputs by name: all inputs of a report but for what does not change rows. A run continues only with equal ones;
@@ -28,6 +29,15 @@ pub struct Fields<'a> {
     /// Whether the law differs from the laws of its name and parameters.
     pub law_differs: bool,
 }
+
+/// The fields that stand for their files.
+const LAW_TABLE: &str = key!(Adhesion, law_table);
+const WORKS: &str = key!(Adhesion, work_of_adhesion_map);
+const HARDNESS: &str = key!(Adhesion, hardness_map);
+const START: &str = key!(Inputs, initial_gap);
+
+/// All of them, with the heights.
+pub(crate) const FIELDS: [&str; 5] = [key!(Inputs, heights), LAW_TABLE, WORKS, HARDNESS, START];
 
 /// The identity of a problem with a law on a branch: all that its solutions depend on besides the loads, and the units
 /// of a table.
@@ -67,10 +77,10 @@ pub(crate) fn identity<T: Real>(
     let fields = [
         (heights, Some(field(surface.heights()))),
         ("absent_nodes", surface.absent().map(|absent| field(&absent.mapv(f64::from)))),
-        ("law_table", given.law_table.map(field)),
-        ("work_of_adhesion_map", given.works.map(field)),
-        ("hardness_map", given.hardness.map(field)),
-        ("initial_gap", given.start.map(field)),
+        (LAW_TABLE, given.law_table.map(field)),
+        (WORKS, given.works.map(field)),
+        (HARDNESS, given.hardness.map(field)),
+        (START, given.start.map(field)),
         ("branch", Some(branch.map_or("by the load", Branch::name).to_owned())),
         ("units", Some(units.to_owned())),
     ];

@@ -24,7 +24,7 @@ pub(crate) use self::state::{State, damaged};
 pub use self::state::{Written, state_path};
 use crate::hash::Hash;
 use crate::outcome::Outcome;
-use crate::table::identity::Identity;
+use crate::table::identity::{FIELDS, Identity};
 
 /// The rows of a table on disk, and how to continue them.
 #[derive(Debug)]
@@ -187,7 +187,7 @@ fn resume(
         if there != here {
             let name = key.replace('_', " ");
             return refuse(match key.as_str() {
-                "heights" | "initial_gap" | "law_table" | "work_of_adhesion_map" | "hardness_map" => {
+                file if FIELDS.contains(&file) => {
                     format!("belongs to another run, with another file of its {name}")
                 }
                 "surfaces" => "belongs to another run, with another of its two surfaces, or another shift".to_owned(),
