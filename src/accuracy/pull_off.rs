@@ -264,56 +264,25 @@ impl Accuracy {
             return Err(Error::Unsuited { what: "accuracy of the pull-off", reason });
         }
         let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
-        let mut find = |surface: &Surface, law: SharedLaw<T>, tensions: &[f64]| {
-            let search = search.expected(expected_on_finer(tensions, search.tolerance).or(search.expected));
-            let grid = *surface.grid();
-            let mut problem = Problem::of(surface, operators.on(grid)?, law)?;
-            let found = search.find_from(solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
-            let tension = -found.solution.report.mean_pressure;
-            let level = found.limit()?.map(|limit| (grid.shape(), [tension, limit]));
-            Ok::<_, Error>((found, level, problem.operator.grid().nodes(), problem.operator.boundary()))
-        };
-        let (mut levels, mut tensions) = (Vec::new(), Vec::new());
+        let mut searches = Searches { solver, operators, observe, search, tensions: Vec::new() };
+        let mut levels = Vec::new();
         if hints.of_grid && !hints.zero {
-            let coarsest = self.nested.coarsest.max(COARSEST);
-            for coarse in coarsened(surface, coarsest, hints.shape.is_none())?.iter().rev() {
-                // what cannot be found there, or is of a few nodes, says nothing of the finer grid
-                let found = find(coarse, on_coarse(law, surface, coarse), &tensions).ok();
-                let found = found.filter(|(found, ..)| found.reached);
-                // closed surfaces hold roughly where they do not hold
-                let open = found
-                    .as_ref()
-                    .filter(|(found, ..)| found.closed_share().is_none_or(|share| share <= NEARLY_CLOSED));
-                tensions.extend(open.map(|(found, ..)| -found.solution.report.mean_pressure));
-                let found = found.filter(|(found, ..)| 4.0 * found.bearing_nodes() >= LEAST_NODES);
-                levels = found.and_then(|(_, level, ..)| level).into_iter().collect();
-            }
+            levels = searches.on_coarser_grids(surface, law, self.nested.coarsest.max(COARSEST))?;
         }
         let (mut surface, mut law) = (surface.clone(), law.clone());
         let mut refinable = is_refinable(&surface, &*law);
         loop {
-            let (found, level, nodes, boundary) = find(&surface, law.clone(), &tensions)?;
-            tensions.push(-found.solution.report.mean_pressure);
-            let waves = surface.nodes_per_wave(boundary);
+            let Searched { found, level, nodes, boundary } = searches.find(&surface, law.clone())?;
+            searches.tensions.push(-found.solution.report.mean_pressure);
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
             let bytes = |doubled: i32| 8.0 * NUMBERS * nodes as f64 * growth.powi(doubled);
             let few = found.few_nodes(&surface).filter(|_| hints.of_grid && level.is_some());
-            let few = few.map(|(nodes, finer)| {
-                let doubled = finer.log2().ceil() as i32;
-                let needed = (0..doubled).fold(surface.grid().shape(), |shape, _| twice(shape));
-                Untold::FewNodes { nodes, needed, bytes: bytes(doubled) }
-            });
+            let few = few.map(|(nodes, finer)| too_few(&surface, nodes, finer, bytes));
             levels.extend(level.filter(|_| few.is_none()));
-            let error = match few {
-                Some(few) => Err(few),
-                None => error(
-                    &found,
-                    &levels,
-                    hints.of_grid,
-                    (level.is_some(), waves, of_many_waves(&surface, &found, waves)),
-                ),
-            };
+            let waves = surface.nodes_per_wave(boundary);
+            let told = (level.is_some(), waves, of_many_waves(&surface, &found, waves));
+            let error = few.map_or_else(|| error(&found, &levels, hints.of_grid, told), Err);
             let limit = error.ok().map(|_| limits(&levels)[0]);
             let ended = match error {
                 Ok(error) => error.relative <= self.target,
@@ -333,6 +302,68 @@ impl Accuracy {
             surface = fine;
         }
     }
+}
+
+/// Searches on grids from coarse to fine.
+struct Searches<'a, 'b, T: Real> {
+    solver: &'a mut Solver<dyn ContactConstraint<T>>,
+    operators: &'a mut dyn OnGrids<T>,
+    observe: GridObserver<'b>,
+    search: PullOff,
+    /// The pull-offs on the coarser grids.
+    tensions: Vec<f64>,
+}
+
+/// The nodes (Nx, Ny) of a grid, with the greatest tension and the limit that it tells.
+type PullOffLevel = ((usize, usize), [f64; 2]);
+
+/// A search on a grid, with the nodes and the boundary of the operator.
+struct Searched<T: Real> {
+    found: FoundPullOff<T>,
+    level: Option<PullOffLevel>,
+    nodes: usize,
+    boundary: Boundary,
+}
+
+impl<T: Real> Searches<'_, '_, T> {
+    fn find(&mut self, surface: &Surface, law: SharedLaw<T>) -> Result<Searched<T>> {
+        let expected = expected_on_finer(&self.tensions, self.search.tolerance);
+        let search = self.search.expected(expected.or(self.search.expected));
+        let grid = *surface.grid();
+        let mut problem = Problem::of(surface, self.operators.on(grid)?, law)?;
+        let observe = |state: &Iteration| (self.observe)(&grid, state);
+        let found = search.find_from(self.solver, &mut problem, Start::Default, observe)?;
+        let tension = -found.solution.report.mean_pressure;
+        let level = found.limit()?.map(|limit| (grid.shape(), [tension, limit]));
+        let (nodes, boundary) = (problem.operator.grid().nodes(), problem.operator.boundary());
+        Ok(Searched { found, level, nodes, boundary })
+    }
+
+    /// The level of the grid of half as many nodes along the sides, if it tells a pull-off, after searches on coarser ones.
+    fn on_coarser_grids(&mut self, surface: &Surface, law: &SharedLaw<T>, least: usize) -> Result<Vec<PullOffLevel>> {
+        let mut last = None;
+        for coarse in coarsened(surface, least, law.hints().shape.is_none())?.iter().rev() {
+            // what cannot be found there, or is of a few nodes, says nothing of the finer grid
+            let searched = self.find(coarse, on_coarse(law, surface, coarse)).ok();
+            last = None;
+            let Some(Searched { found, level, .. }) = searched.filter(|searched| searched.found.reached) else {
+                continue;
+            };
+            // closed surfaces hold roughly where they do not hold
+            if found.closed_share().is_none_or(|share| share <= NEARLY_CLOSED) {
+                self.tensions.push(-found.solution.report.mean_pressure);
+            }
+            last = level.filter(|_| 4.0 * found.bearing_nodes() >= LEAST_NODES);
+        }
+        Ok(last.into_iter().collect())
+    }
+}
+
+/// So few nodes bear the pull-off, on a grid that has to be so many times finer.
+fn too_few(surface: &Surface, nodes: f64, finer: f64, bytes: impl Fn(i32) -> f64) -> Untold {
+    let doubled = finer.log2().ceil() as i32;
+    let needed = (0..doubled).fold(surface.grid().shape(), |shape, _| twice(shape));
+    Untold::FewNodes { nodes, needed, bytes: bytes(doubled) }
 }
 
 /// The tensions between which the pull-off on the next finer grid is expected, from the pull-offs on coarser grids: it changes
