@@ -1,5 +1,9 @@
 """The greatest tension under which surfaces stay together."""
 
+import json
+import subprocess
+
+import numpy as np
 import pytest
 
 import asperity
@@ -42,3 +46,15 @@ def test_units_a_start_and_what_is_refused(rough):
     with pytest.warns(asperity.ConvergenceWarning, match="not converged"):
         short = asperity.pull_off(rough, modulus=1.0, law=LAW, max_iterations=2)
     assert (short.reached, short.pressure) == (False, None)
+
+
+@pytest.mark.parametrize("law", [LAW, asperity.JKR(1e-4)])
+def test_the_program_finds_the_same(law, rough, tool, tmp_path):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    given = ["--law", "jkr"] if law is not LAW else ["--law", "exponential", "--range", "4e-3"]
+    command = [tool, "pull-off", "--heights", "heights.npy", "--work-of-adhesion", "1e-4", *given, "--json"]
+    report = json.loads(subprocess.run(command, cwd=tmp_path, check=True, capture_output=True).stdout)
+    ours = asperity.pull_off(rough, modulus=1.0, law=law)
+    assert (report["pull_off_pressure"], report["lost_pressure"]) == (ours.pressure, ours.lost_pressure)
+    assert (report["limit_pressure"], report["limit_reason"]) == (ours.limit_pressure, ours.limit_reason)
+    assert report["last"]["mean_gap"] == ours.solution.mean_gap and report["solves"] == ours.solves
