@@ -304,6 +304,11 @@ impl<T: Real> Search<'_, T> {
                 return Ok(self.end(held, false));
             }
         }
+        let is_narrow = self.bracket.is_narrow(self.tolerance);
+        if self.bracket.expected.is_none() {
+            return Ok(self.end(held, is_narrow));
+        }
+        // solves were rough
         let own = self.solver.settings.tolerance_in::<T>();
         let load = Control::MeanPressure(-self.bracket.greatest());
         let solved = self.solve_to(own, load, Begin::Found(held.place()))?;
@@ -313,7 +318,7 @@ impl<T: Real> Search<'_, T> {
             self.bracket.give_back();
             return self.narrow(held, first);
         }
-        let reached = solved.is_settled() && self.bracket.is_narrow(self.tolerance);
+        let reached = is_narrow && solved.is_settled();
         Ok(self.end(solved, reached))
     }
 
