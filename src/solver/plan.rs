@@ -89,7 +89,7 @@ pub(super) fn plan(facts: Facts) -> Plan {
     let law = if jumps { StageLaw::Smoothed } else { StageLaw::Own };
     let wall = from_afar.then_some(Stage::wall(repels));
     let start = (rigid || jumps && !torn).then_some(Stage { law, rigid, tolerance: Some(START) });
-    Plan { starts: wall.into_iter().chain(start).collect(), torn, holds: if seeks { &Hold::ALL } else { &[] } }
+    Plan { starts: wall.into_iter().chain(start).collect(), torn, holds: if seeks && !torn { &Hold::ALL } else { &[] } }
 }
 
 #[cfg(test)]
@@ -104,7 +104,7 @@ mod tests {
         vec![
             ("no adhesion", facts),
             ("no adhesion, stiff springs", Facts { stiff: true, ..facts }),
-            ("no adhesion, a given gap", Facts { given: true, ..facts }),
+            ("no adhesion, a given start", Facts { given: true, ..facts }),
             ("loading", loading),
             ("loading, a law that jumps", Facts { jumps: true, ..loading }),
             ("loading, a law that repels, no wall", Facts { repels: true, ..loading }),
@@ -115,8 +115,8 @@ mod tests {
             ("unloading, stiff springs", Facts { stiff: true, ..unloading }),
             ("unloading, a law that jumps, stiff springs", Facts { jumps: true, stiff: true, ..unloading }),
             ("unloading, a tension beyond the law", Facts { jumps: true, stiff: true, torn: true, ..unloading }),
-            ("adhesion, a given gap", Facts { given: true, ..facts }),
-            ("adhesion, a given gap, a law that jumps", Facts { given: true, jumps: true, ..facts }),
+            ("adhesion, a given start", Facts { given: true, ..facts }),
+            ("adhesion, a given start, a law that jumps", Facts { given: true, jumps: true, ..facts }),
         ]
     }
 

@@ -33,7 +33,7 @@ record! {
         limit_error: Option<f64> as Error = accurate.ok().and_then(|found| found.error.ok()).map(|error| error.relative),
         /// Why the limit has no error.
         limit_reason: Option<String> = reason(accurate),
-        /// Key of the pull-off to report: the limit if it has an error, and nothing where a few nodes bear the tension.
+        /// Key of the pull-off to report: the limit if it has an error, otherwise the pull-off pressure, and none where a few nodes bear the tension.
         to_report: Option<&'static str> = to_report(accurate, report),
         /// Relative error that was asked for, if one was.
         accuracy: Option<f64> = accurate.ok().and(goal).map(|goal| goal.accuracy),
