@@ -16,6 +16,7 @@ use crate::stability::ContactStiffness;
 use crate::stability::EdgeError;
 use crate::surface::{Surface, mirror};
 
+mod bearing;
 mod goal;
 mod loop_grid;
 mod loops;

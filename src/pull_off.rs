@@ -3,15 +3,18 @@
 use std::ops::ControlFlow;
 
 use crate::constraint::{ContactConstraint, Wall};
-use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{
-    Begin, Branch, Criterion, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status,
+    Begin, Branch, Criterion, Iteration, Observer, ROUGHLY, Report, STRONGEST, Solution, Solved, Solver, Start, Status,
     check_wall, refuse_hardness, unload,
 };
+
+mod bracket;
+
+use bracket::{Bracket, Held};
 
 once! {
     /// A search for a pull-off.
@@ -30,16 +33,8 @@ const FIRST: f64 = 1.0 / 16.0;
 /// The attraction of surfaces at rest, over their energy of adhesion and its range: a tension that is tried.
 const AT_REST: f64 = 0.1;
 
-/// The least and the largest next tension over the last tension borne, as long as no tension is too large.
-const GROWTH: (f64, f64) = (1.2, 2.5);
-
-/// The share of a bracket that a tension leaves to both sides at least, and the share below a tension that is tried without a
-/// peak: a state that holds costs less than surfaces that come apart.
-const MARGIN: f64 = 0.1;
-const BELOW: f64 = 0.35;
-
-/// The tolerance of a rough solve, over the change of the tension, and the largest tolerance.
-const ROUGHLY: (f64, f64) = (0.01, 1e-3);
+/// The tolerance of a rough solve over the change of the tension; at most [`ROUGHLY`].
+const OF_CHANGE: f64 = 0.01;
 
 /// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
 ///
@@ -157,7 +152,7 @@ impl PullOff {
         let branch = solver.settings.branch.unwrap_or(usual);
         let begin = if let Start::Default = start { Begin::On(branch) } else { Begin::At(start) };
         let branch = begin.is_default().then_some(branch);
-        let bracket = Bracket { expected: self.expected, ..Bracket::default() };
+        let bracket = Bracket::new(self.expected);
         let (solves, operator_applications, tolerance) = (0, 0, self.tolerance);
         let is_rough = self.expected.is_some() && solver.settings.criterion == Criterion::EnergyNorm;
         let mut search =
@@ -228,8 +223,8 @@ impl<T: Real> Search<'_, T> {
 
     /// The tolerance of a solve, by the relative change of the load.
     fn roughly(&self, change: f64) -> f64 {
-        let (own, (share, most)) = (self.solver.settings.tolerance_in::<T>(), ROUGHLY);
-        if self.is_rough { own.max(most.min(share * change)) } else { own }
+        let own = self.solver.settings.tolerance_in::<T>();
+        if self.is_rough { own.max(ROUGHLY.min(OF_CHANGE * change)) } else { own }
     }
 
     fn solve_to(&mut self, tolerance: f64, load: Control, begin: Begin<'_, T>) -> Result<Solved<T>> {
@@ -325,161 +320,5 @@ impl<T: Real> Search<'_, T> {
     fn end(self, held: Solved<T>, reached: bool) -> FoundPullOff<T> {
         let Self { branch, bracket, solves, operator_applications, .. } = self;
         FoundPullOff { solution: held.solution, lost: bracket.lost, reached, branch, solves, operator_applications }
-    }
-}
-
-/// A tension that is borne, and how far the bodies are there: the mean gap, with a free boundary minus the approach.
-#[derive(Clone, Copy, Debug)]
-struct Held {
-    distance: f64,
-    tension: f64,
-}
-
-impl Held {
-    fn of(report: &Report) -> Self {
-        let free = report.boundary != Boundary::Periodic;
-        let distance = report.approach.filter(|_| free).map_or(report.mean_gap, |approach| -approach);
-        Self { distance, tension: -report.mean_pressure }
-    }
-}
-
-/// The tensions that are borne, in their order, and the least tension that is not.
-#[derive(Debug, Default)]
-struct Bracket {
-    borne: Vec<Held>,
-    lost: Option<f64>,
-    /// the tension that was borne before the loss
-    from: f64,
-    /// the tensions between which the pull-off is expected
-    expected: Option<[f64; 2]>,
-}
-
-impl Bracket {
-    fn bear(&mut self, place: Held) {
-        self.lost = self.lost.filter(|&lost| lost > place.tension);
-        self.borne.push(place);
-    }
-
-    fn lose(&mut self, tension: f64) {
-        (self.lost, self.from) = (Some(tension), self.greatest());
-    }
-
-    /// Takes the greatest tension as the one that is not borne.
-    fn give_back(&mut self) {
-        if let Some(last) = self.borne.pop() {
-            self.lose(last.tension);
-        }
-    }
-
-    fn greatest(&self) -> f64 {
-        self.borne.last().map_or(0.0, |place| place.tension)
-    }
-
-    fn is_narrow(&self, tolerance: f64) -> bool {
-        self.lost.is_some_and(|lost| lost - self.from <= tolerance * lost)
-    }
-
-    /// The tension to try.
-    fn next(&self, first: f64, tolerance: f64) -> f64 {
-        let (low, peak) = (self.greatest(), self.peak());
-        if let Some(tension) = self.next_as_expected() {
-            return tension;
-        }
-        let Some(lost) = self.lost else {
-            let (least, most) = GROWTH;
-            let beyond = peak.map_or(f64::INFINITY, |peak| peak * (1.0 + 0.25 * tolerance));
-            return if low > 0.0 { beyond.clamp(least * low, most * low) } else { first };
-        };
-        if lost - low <= tolerance * lost {
-            // lost from farther off
-            return lost;
-        }
-        let inside = MARGIN * (lost - low);
-        let Some(peak) = peak.filter(|&peak| low < peak && peak < lost) else {
-            return if low > 0.0 && lost > 2.0 * low { (low * lost).sqrt() } else { low + BELOW * (lost - low) };
-        };
-        // the side of the peak on which the bracket is wider
-        let side = if lost - peak > peak - low { 0.25 } else { -0.25 };
-        (peak * (1.0 + side * tolerance)).clamp(low + inside, lost - inside)
-    }
-
-    /// The tension to try while the pull-off is not enclosed: the ends of the expected tensions, then ever farther beyond.
-    fn next_as_expected(&self) -> Option<f64> {
-        let ([least, most], low) = (self.expected?, self.greatest());
-        let beyond = match self.lost {
-            None if low < least => least,
-            None if low < most => most,
-            None => (2.0 * low - least).min(GROWTH.1 * low),
-            Some(lost) => 2.0 * lost - most,
-        };
-        let is_beyond = self.lost.is_none_or(|lost| lost <= least);
-        (is_beyond && beyond > low).then_some(beyond)
-    }
-
-    /// The largest tension of the parabola over the distance through the last three places, if it has one.
-    fn peak(&self) -> Option<f64> {
-        let [.., a, b, c] = self.borne[..] else { return None };
-        let slope = |from: Held, to: Held| (to.tension - from.tension) / (to.distance - from.distance);
-        let bend = (slope(b, c) - slope(a, b)) / (c.distance - a.distance);
-        let there = slope(b, c) + bend * (c.distance - b.distance);
-        Some(c.tension - there * there / (4.0 * bend)).filter(|peak| bend < 0.0 && peak.is_finite())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_peak_of_a_parabola_is_found_and_enclosed() {
-        let curve = |x: f64| 3.0 - (x - 2.0).powi(2);
-        let places = [0.3, 0.8, 1.1].map(|distance| Held { distance, tension: curve(distance) });
-        let mut bracket = Bracket { borne: places.to_vec(), ..Bracket::default() };
-        assert!((bracket.peak().unwrap() - 3.0).abs() < 1e-12);
-        let mut tries = 0;
-        while !bracket.is_narrow(0.02) {
-            let tension = bracket.next(0.1, 0.02);
-            match tension <= 3.0 {
-                true => bracket.bear(Held { distance: 2.0 - (3.0 - tension).sqrt(), tension }),
-                false => bracket.lose(tension),
-            }
-            tries += 1;
-        }
-        assert!(tries <= 4 && bracket.greatest() <= 3.0 && bracket.lost > Some(3.0), "{tries}: {bracket:?}");
-    }
-
-    #[test]
-    fn a_curve_of_teeth_is_enclosed_by_halving() {
-        let mut bracket = Bracket { borne: vec![Held { distance: 1.0, tension: 0.0 }], ..Bracket::default() };
-        let mut tries = 0;
-        while !bracket.is_narrow(1e-3) {
-            let tension = bracket.next(1e-3, 1e-3);
-            match tension <= 0.7 {
-                true => bracket.bear(Held { distance: 1.0 + (f64::from(tries) * 0.7).fract(), tension }),
-                false => bracket.lose(tension),
-            }
-            tries += 1;
-        }
-        assert!(tries < 40 && bracket.greatest() <= 0.7 && bracket.lost > Some(0.7), "{tries}: {bracket:?}");
-    }
-
-    #[test]
-    fn a_loss_by_a_long_step_is_tried_again_from_close_by() {
-        let mut bracket = Bracket { borne: vec![Held { distance: 1.0, tension: 0.6 }], ..Bracket::default() };
-        let (mut tries, mut early) = (0, 0);
-        while !bracket.is_narrow(0.02) {
-            let tension = bracket.next(0.6, 0.02);
-            // a step longer than 0.2 jumps
-            match tension <= 1.0 && tension <= bracket.greatest() + 0.2 {
-                true => bracket.bear(Held { distance: tension, tension }),
-                false => bracket.lose(tension),
-            }
-            early += usize::from(bracket.lost.is_some_and(|lost| lost <= 1.0));
-            tries += 1;
-        }
-        assert!(
-            early > 0 && tries < 40 && bracket.greatest() <= 1.0 && bracket.lost > Some(1.0),
-            "{tries}: {bracket:?}"
-        );
     }
 }

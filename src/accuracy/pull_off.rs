@@ -1,14 +1,14 @@
 //! The pull-off with the error of its grid, of a law that has the range of the grid.
 
-use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use super::bearing::LEAST_NODES;
 use super::goal::{NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, GridError, adhesion, observed_order};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
-use crate::contact::{Clusters, ContactArea};
+use crate::contact::ContactArea;
 use crate::elastic::{Boundary, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -49,11 +49,6 @@ const MANY_WAVES: f64 = 3.5;
 
 /// The growth of the pull-off from one grid to the next, above which the two tell no error.
 const GROWTH: f64 = 1.15;
-
-/// The least number of nodes that bear the pull-off, in a contact, and the least radius of a contact by the theory of Johnson,
-/// Kendall and Roberts, in spacings.
-const LEAST_NODES: f64 = 10.0;
-const LEAST_RADIUS: f64 = 2.0;
 
 /// The nodes along a side of the coarsest grid that tells where the pull-off is expected, and the change of the pull-off to a
 /// grid of twice as many nodes, where a single grid is known.
@@ -137,59 +132,6 @@ impl<T: Real> FoundPullOff<T> {
         let is_closed = self.closed_share().is_some_and(|share| share > CLOSED);
         let share = area.zip(by_energy).filter(|_| !is_closed).map(|(area, by_energy)| area / by_energy);
         Ok(share.filter(|share| tension > 0.0 && share.is_finite()).map(|share| share * tension))
-    }
-
-    /// The share of a periodic cell in contact, by the adhesive energy.
-    fn closed_share(&self) -> Option<f64> {
-        let report = &self.solution.report;
-        let facing = 1.0 - report.absent_nodes as f64 / self.solution.grid.nodes() as f64;
-        report.adhesive_contact_fraction.filter(|_| report.approach.is_none()).map(|share| share * facing)
-    }
-
-    /// The nodes of the contacts that bear the tension, by the adhesive energy, in the mean over these nodes.
-    fn bearing_nodes(&self) -> f64 {
-        let (solution, report) = (self.solution.whole(), &self.solution.report);
-        let facing = (solution.grid.nodes() - report.absent_nodes) as f64;
-        let by_energy = report.adhesive_contact_fraction.unwrap_or_default() * facing;
-        let sizes = Clusters::within(solution.contact_map().view(), report.boundary).sizes;
-        let sum = |power: i32| sizes.iter().map(|&size| (size as f64).powi(power)).sum::<f64>();
-        if sizes.is_empty() { by_energy } else { by_energy * sum(2) / sum(1).powi(2) }
-    }
-
-    /// The radius of the contacts at their pull-off by the theory of Johnson, Kendall and Roberts, in spacings, with the mean
-    /// curvature of the surface at the nodes in contact; infinite where they are flat.
-    fn radius_by_jkr(&self, surface: &Surface) -> f64 {
-        let (solution, heights) = (self.solution.whole(), surface.whole());
-        let (heights, grid, report) = (heights.heights(), &solution.grid, &solution.report);
-        let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
-        let bend = |[before, here, after]: [f64; 3], spacing: f64| (2.0 * here - before - after) / (spacing * spacing);
-        let contact = solution.contact_map();
-        let inside = |at: usize, n: usize| report.approach.is_none() || n == 1 || 0 < at && at + 1 < n;
-        let (mut sum, mut count) = (0.0, 0.0);
-        for ((i, j), _) in
-            contact.indexed_iter().filter(|((i, j), touches)| **touches && inside(*i, nx) && inside(*j, ny))
-        {
-            let along_x = [(i + nx - 1) % nx, i, (i + 1) % nx].map(|i| heights[[i, j]]);
-            let along_y = [(j + ny - 1) % ny, j, (j + 1) % ny].map(|j| heights[[i, j]]);
-            let axes = f64::from(u8::from(nx > 1)) + f64::from(u8::from(ny > 1));
-            let bend_here = (bend(along_x, dx) + bend(along_y, dy)) / axes;
-            if bend_here.is_finite() {
-                (sum, count) = (sum + bend_here, count + 1.0);
-            }
-        }
-        let curvature = sum / count;
-        if curvature.is_nan() || curvature <= 0.0 {
-            return f64::INFINITY;
-        }
-        let cube = 1.125 * PI * report.work_of_adhesion / (report.modulus * curvature * curvature);
-        cube.cbrt() / grid.largest_spacing()
-    }
-
-    /// The number of nodes of a contact, and how many times as many it needs along the sides, if they are too few.
-    fn few_nodes(&self, surface: &Surface) -> Option<(f64, f64)> {
-        let nodes = self.bearing_nodes();
-        let finer = (LEAST_NODES / nodes).sqrt().max(LEAST_RADIUS / self.radius_by_jkr(surface));
-        (finer > 1.0).then_some((nodes, finer))
     }
 }
 
