@@ -71,9 +71,7 @@ impl Engine {
         let reading = chosen.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect();
         self.origin = Origin { source: Source::Opened { name: name.to_owned(), reading }, steps: None };
         let mut found = self.take(map, None);
-        if let Value::Object(found) = &mut found {
-            found.insert("channels".to_owned(), told.into());
-        }
+        found["channels"] = told.into();
         Ok(found)
     }
 

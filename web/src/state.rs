@@ -99,7 +99,7 @@ impl<T: Scalar> State<T> {
     }
 
     /// The answer to a solve.
-    fn answer(&self, last: &Last<T>) -> Outcome<Value> {
+    fn answer(&self, last: &Last<T>, started: bool) -> Outcome<Value> {
         let (account, part) = (&last.account, last.found.part()?);
         let of = |field: &Array2<T>| extremes(field.iter().map(|value| value.widen()));
         let gaps = bulk(part.gap.iter().map(|value| value.widen()).filter(|gap| *gap > 0.0)).unwrap_or_default();
@@ -127,6 +127,7 @@ impl<T: Scalar> State<T> {
             "lengths": part.grid.lengths(),
             "unit": self.session.units().length,
             "pressure_unit": self.session.units().pressure,
+            "started": if started { "last" } else { "default" },
             "extremes": ends,
             "limits": { "pressure": [-tension, compression], "gap": gaps },
         }))
@@ -153,11 +154,7 @@ impl<T: Scalar> State<T> {
         })?;
         solved.look()?;
         let last = Last { found: solved.found, account: solved.account, start: kept };
-        let mut answer = self.answer(&last)?;
-        let from = if started { "last" } else { "default" };
-        if let Value::Object(answer) = &mut answer {
-            answer.insert("started".to_owned(), from.into());
-        }
+        let answer = self.answer(&last, started)?;
         self.last = Some(last);
         Ok((answer, started && adheres))
     }
