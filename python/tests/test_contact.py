@@ -136,6 +136,23 @@ def test_a_solution_is_loaded_as_it_was_saved(rough, tmp_path, scene):
     equal(again, asperity.load(tmp_path / "again"))
 
 
+def test_a_folder_of_an_earlier_version_lacks_a_number_or_says_which_one_it_needs(rough, tmp_path):
+    asperity.solve(rough, modulus=1.0, mean_pressure=0.01).save(tmp_path)
+    file = tmp_path / "report.json"
+    whole = json.loads(file.read_text())
+
+    def without(name):
+        file.write_text(json.dumps({key: value for key, value in whole.items() if key != name}))
+        return asperity.load(tmp_path)
+
+    assert np.isnan(without("perimeter").statistics.perimeter) and without("perimeter").report["perimeter"] is None
+    for name in whole:
+        try:
+            assert without(name).report[name] is None
+        except ValueError as refused:
+            assert str(refused) == f"{file} is no report of a solve, without {name}: name the folder of one, or solve anew"
+
+
 def test_absent_nodes_lines_and_mirrored_maps_are_loaded(tmp_path):
     x = np.arange(32) / 32
     holed = 0.01 * np.cos(2 * np.pi * x)[:, None] * np.cos(2 * np.pi * x)

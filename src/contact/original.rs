@@ -181,11 +181,17 @@ impl Original {
         let body = (Boundary::Periodic, modulus);
         let whole = ContactStatistics::of_fields(gap, contact_pressure, &self.whole, body, law)?;
         let contact = self.contact(gap, contact_pressure)?;
+        // each by its name, so that of a new statistic somebody has to say what it is on a part
         Ok(ContactStatistics {
             contact_nodes: number(&contact),
+            contact_fraction: whole.contact_fraction,
+            corrected_contact_fraction: whole.corrected_contact_fraction,
             perimeter: self.share() * whole.perimeter,
             cluster_sizes: Clusters::of_part(contact.view()).sizes,
-            ..whole
+            repulsive_fraction: whole.repulsive_fraction,
+            attractive_fraction: whole.attractive_fraction,
+            apart_fraction: whole.apart_fraction,
+            patches: whole.patches,
         })
     }
 }

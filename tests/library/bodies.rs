@@ -167,6 +167,19 @@ fn contact_on_a_thin_layer_is_that_on_springs_whose_rest_is_where_the_base_is() 
 }
 
 #[test]
+fn closed_springs_are_pressed_by_their_heights_alone() {
+    let (grid, stiffness) = (Grid::square(16, 1.0).unwrap(), 7.0);
+    let surface = oracles::rough::rough(grid, 6, 3);
+    let springs = Spectral::<f64>::new(grid, 1.0, move |_, _| stiffness).unwrap();
+    let mut problem = Problem::new(&surface, springs, NoAdhesion).unwrap();
+    let solution = oracles::solve(&mut problem, Control::MeanPressure(1.0), 1e-10);
+    assert_eq!((solution.report.status, solution.report.contact_fraction), (Status::Converged, 1.0));
+    for (&pressure, &height) in solution.pressure.iter().zip(surface.heights()) {
+        assert_relative_eq!(pressure - 1.0, stiffness * (height - surface.mean()), epsilon = 1e-9);
+    }
+}
+
+#[test]
 fn layers_of_any_thickness_are_solved_in_few_applications() {
     for thickness in [1e-3, 1e-2, 0.1, 1.0] {
         for solution in [

@@ -150,6 +150,22 @@ fn surfaces_that_do_not_fit_are_refused() {
 }
 
 #[test]
+fn a_start_before_a_small_shift_leads_to_the_same_contact_in_fewer_applications() {
+    let (one, other) = (rough(1), rough(2));
+    let pressed = |shift: f64, start: Option<&Array2<f64>>| {
+        let between = one.against(&other, (shift, 0.0)).unwrap();
+        let operator = Westergaard::<f64>::new(grid(), 1.0).unwrap();
+        let mut problem = Problem::new(&between, operator, NoAdhesion).unwrap();
+        oracles::solve_from(&mut problem, Control::MeanPressure(0.02), 1e-6, start)
+    };
+    let before = pressed(0.0, None);
+    let (cold, warm) = (pressed(0.2 * spacing(), None), pressed(0.2 * spacing(), Some(&before.gap)));
+    let [fewer, more] = [&warm, &cold].map(|solution| solution.report.operator_applications);
+    assert!(fewer < more, "{fewer} {more}");
+    close(&warm.gap, &cold.gap, 1e-8);
+}
+
+#[test]
 fn two_half_spaces_are_one_and_each_moves_by_its_compliance() {
     let (one, other) = (rough(1), rough(2));
     let surface = one.against(&other, (0.0, 0.0)).unwrap();

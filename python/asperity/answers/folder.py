@@ -17,13 +17,20 @@ from ..maps.arrays import mirror_field
 from ..maps.heights import Heights, convert_heights
 from ..maps.topography import Topography
 from .findings import ContactStatistics
+from .numbers import Report
 from .solution import FIELDS, OTHERS, Solution
+
+#: The numbers without which a report is none of a solve.
+NEEDED = (
+    "contact_nodes", "absent_nodes", "shape", "lengths", "mean_gap", "mean_pressure", "elastic_energy",
+    "repulsive_fraction", "attractive_fraction", "boundary", "law", "wall",
+)
 
 
 def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: OwnLaw | None = None) -> Solution:
     """Reads a solution of the folder in which `Solution.save` or ``asperity solve --out`` has left it.
 
-    The report has its numbers, in which infinite ones are None. Of a mirrored map the whole gap is the gap of the
+    The report has its numbers, in which infinite ones are None, and also those that an earlier version did not find. Of a mirrored map the whole gap is the gap of the
     original with its mirror images.
 
     Parameters
@@ -92,9 +99,8 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")
     apart = 1.0 - told["repulsive_fraction"] - told["attractive_fraction"]
     counted = {**told, "cluster_sizes": sizes, "apart_fraction": apart}
-    if counted["corrected_contact_fraction"] is None:
-        counted["corrected_contact_fraction"] = np.nan
-    statistics = ContactStatistics(*(counted[name] for name in ContactStatistics._fields))
+    found: list[Any] = [np.nan if counted[name] is None else counted[name] for name in ContactStatistics._fields]
+    statistics = ContactStatistics(*found)
     rows = _asperity.figures_of(json.dumps(told))
     both: list[Any] = [fields[name] for name in ("displacement", "against_displacement")]
     parts = None if both[1] is None else tuple(map(solution.part_of, both))
@@ -147,16 +153,18 @@ def report(
 
 
 def _report(folder: str | os.PathLike[str]) -> Any:
-    """The report of a folder."""
+    """The report of a folder, in which numbers that an earlier version did not find are None."""
     path = os.path.join(folder, "report.json")
     if not os.path.exists(path):
         raise FileNotFoundError(f"{os.fspath(folder)} has no report.json: name the folder of a solve")
     try:
         with open(path, encoding="utf-8") as file:
-            told = json.load(file)
-        told["contact_nodes"], told["shape"], told["solved_shape"]
-    except (ValueError, KeyError, TypeError):
+            told = {**dict.fromkeys(Report.__annotations__), **json.load(file)}
+    except (ValueError, TypeError):
         raise ValueError(f"{path} is no report of a solve: name the folder of one") from None
+    lacking = [name for name in NEEDED if told[name] is None]
+    if lacking:
+        raise ValueError(f"{path} is no report of a solve, without {lacking[0]}: name the folder of one, or solve anew")
     return told
 
 
