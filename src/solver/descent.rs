@@ -178,6 +178,11 @@ impl<'a, T: Real, Lo: Real> Descent<'a, T, Lo> {
         (!self.iterate.energy().is_finite() || self.progress.lacks(patience)).then_some(End::Stalled)
     }
 
+    /// Whether the solve has iterations left after an end.
+    pub(super) fn goes_on(&self, end: &End) -> bool {
+        !matches!(end, End::Cut(_)) && self.iterations < self.iterate.posed.settings.max_iterations
+    }
+
     /// Whether a solve that would stall may renew its pressure, once: many updates may leave mostly rounding.
     pub(super) fn may_renew(&self) -> bool {
         self.iterate.age() > STALL_AT_FLOOR.1 && !self.progress.renewed()

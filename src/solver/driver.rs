@@ -75,7 +75,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     for stage in plan.starts {
         enter(&mut descent, stage);
         let end = descent.minimise(&mut *observe)?;
-        leave(&mut descent, stage)?;
+        leave(&mut descent, stage, &end)?;
         if let End::Cut(status) = end {
             return finish(descent, status);
         }

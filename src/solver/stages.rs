@@ -1,6 +1,6 @@
 //! The passage from stage to stage of a solve.
 
-use super::descent::Descent;
+use super::descent::{Descent, End};
 use super::passes::Fields;
 use super::plan::{Stage, StageLaw};
 use super::start::{check_start, uniform_start};
@@ -19,15 +19,15 @@ pub(super) fn enter<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, stage: 
     }
 }
 
-/// Goes over from a stage to the problem itself.
-pub(super) fn leave<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, stage: Stage) -> Result<()> {
+/// Goes over from a stage that has ended to the problem itself.
+pub(super) fn leave<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, stage: Stage, end: &End) -> Result<()> {
     if stage.law == StageLaw::None {
         return leave_wall(descent);
     }
     if stage.rigid {
         soften(descent)?;
     }
-    sharpen(descent)
+    sharpen(descent, end)
 }
 
 /// Continues with adhesion, under the load. A wall that stood for the repulsion of the law leaves the surfaces as
@@ -91,10 +91,10 @@ fn soften<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<()> {
 }
 
 /// Continues with the law itself after the smoothed one. A given start is on a branch, which ends where the
-/// smoothed law lets go.
-fn sharpen<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<()> {
+/// smoothed law lets go. A solve that is cut short keeps its gap.
+fn sharpen<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, end: &End) -> Result<()> {
     descent.iterate.posed.stage = Stage::SOLUTION;
-    if descent.iterate.posed.branch.is_some() && descent.proof().is_adrift() {
+    if descent.goes_on(end) && descent.iterate.posed.branch.is_some() && descent.proof().is_adrift() {
         // the law itself may hold this tension
         let uniform =
             uniform_start(descent.iterate.posed.adhesion, descent.iterate.posed.flat, descent.iterate.posed.load);

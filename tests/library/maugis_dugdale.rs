@@ -124,6 +124,28 @@ fn a_law_comes_back_as_it_was_however_the_solve_ends() {
 }
 
 #[test]
+fn a_solve_that_is_cut_as_its_smoothed_law_lets_go_keeps_its_gap() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = Surface::paraboloid(grid, RADIUS).unwrap();
+    let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let control = Control::MeanPressure(-3e-3);
+    let mut end = 0;
+    let lost = Solver::default()
+        .solve_with(&mut problem, control, Start::Default, |iteration| {
+            end = if iteration.round == 0 { iteration.iteration } else { end };
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(lost.report.status, Status::Detached);
+    for limit in [end - 1, end] {
+        let cut = Solver::new(Settings::default().max_iterations(limit)).solve(&mut problem, control).unwrap();
+        assert_eq!((cut.report.status, cut.report.iterations), (Status::IterationLimit, limit));
+        assert!(cut.gap.iter().any(|&gap| gap != cut.gap[[0, 0]]), "uniform at {limit}");
+    }
+}
+
+#[test]
 fn on_a_line_too_the_pressure_converges_from_the_default_start() {
     // (the spacing that sets the smoothing is that along the line, not the width)
     let (amplitude, law) = (0.02, MaugisDugdale::new(2e-5, 4e-4).unwrap());
