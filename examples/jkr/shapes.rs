@@ -1,119 +1,104 @@
-//! Other shapes of the law, and other steepest slopes.
+//! The law without a range in other shapes: how strongly the nodes hold straight fronts.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use asperity::exact::Sphere;
-use asperity::{Branch, Control, Grid, Problem};
+use asperity::adhesion::Hints;
+use asperity::{AdhesionLaw, Real};
 use common::Outcome;
 
-use crate::case::{Areas, half_space, head, pull_off, row, solve, tension};
-use crate::law::{Shape, Short};
-use crate::rough::{AREA, surface};
-use crate::sphere;
+use crate::case::{head, ratios, row};
 use crate::wave::Wave;
 
-const SLOPES: [f64; 7] = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.5];
-const BRACKET: f64 = 0.005;
+/// The steepest slope of the law of the library, a quintic step, times the compliance of a node.
+const STEEPEST: f64 = 3.75 / 13.0;
 
-pub fn tables(quick: bool) -> Outcome<()> {
-    let (line, window, side) = if quick { (128, 32, 64) } else { (512, 64, 256) };
-    head(
-        &format!(
-            "Shapes of the law and their steepest slope c E*/Δx: the wave on {line} nodes (straight fronts), the sphere on \
-             {window}², and a rough surface on {side}², rms slope 1, k 1 to 16, w = 7e-5, p̄ = 0.01, seed 3"
-        ),
-        &[
-            "shape",
-            "c",
-            "wave: pull-off",
-            "largest error of the area",
-            "there − back",
-            "applications",
-            "sphere: radius by energy",
-            "its excess area over the edge, cells",
-            "approach",
-            "pull-off",
-            "applications: at rest, pull-off",
-            "rough: area by energy",
-            "corrected",
-            "nodes unloading − loading",
-            "applications: loading, unloading",
-        ],
-    );
-    for shape in Shape::ALL {
-        for steepest in shape.slopes(if quick { &[0.25] } else { &SLOPES }) {
-            let wave = Wave::line(line)?;
-            let law = Short::new(wave.work_of_adhesion(), shape, steepest);
-            let ((areas, taken), (off, of_search)) = (wave.areas(law)?, wave.pull_off(law)?);
-            let largest = areas.iter().fold(0.0_f64, |most, area| most.max((area - 1.0).abs()));
-            let apart = (0..3).fold(0.0_f64, |most, i| most.max((areas[6 - i] / areas[i] - 1.0).abs()));
-            let mut line = vec![shape.name_at(steepest), format!("{steepest:.3}")];
-            line.extend([off, largest, apart].map(|value| format!("{value:.4}")));
-            line.push(format!("{taken}, {of_search}"));
+/// Energy, traction and slope that are left at a gap from zero to one, over the values in contact.
+type Left = fn(f64) -> [f64; 3];
 
-            let exact = sphere::exact()?;
-            let at_rest = exact.at_load(0.0)?;
-            let mut problem = sphere::problem(window, Short::new(sphere::WORK, shape, steepest))?;
-            let rest = solve(&mut problem, Control::Force(0.0), Branch::Loading)?;
-            let found = pull_off(&mut problem, BRACKET, None)?;
-            let area = sphere::SIDE * sphere::SIDE;
-            let of_rest = Areas::of(&rest)?;
-            let radius = (area * of_rest.by_energy / PI).sqrt();
-            let excess = of_rest.by_energy - PI * at_rest.contact_radius().powi(2) / area;
-            line.extend(
-                [
-                    radius / at_rest.contact_radius(),
-                    excess / of_rest.edge,
-                    rest.report.approach.unwrap_or(f64::NAN) / at_rest.approach(),
-                    -tension(&found) * area / exact.pull_off().load(),
-                ]
-                .map(|value| format!("{value:.4}")),
-            );
-            line.push(format!("{}, {}", rest.report.operator_applications, found.operator_applications));
+/// Shapes of the traction, from one in contact to zero at the range, all with a mean of a half: a name, the steepest slope
+/// over the range, and the shape.
+const SHAPES: [(&str, f64, Left); 4] = [
+    ("ramp", 1.0, |x| if x < 1.0 { [(1.0 - x).powi(2), 1.0 - x, -1.0] } else { [0.0; 3] }),
+    ("half cosine", 0.5 * PI, |x| {
+        let (sine, cosine) = (PI * x).sin_cos();
+        [1.0 - x - sine / PI, 0.5 * (1.0 + cosine), -0.5 * PI * sine]
+    }),
+    ("cubic step", 1.5, |x| {
+        let left = 1.0 - x;
+        [left.powi(3) * (1.0 + x), left * left * (1.0 + 2.0 * x), -6.0 * x * left]
+    }),
+    ("quintic step, the law of the library", 1.875, |x| {
+        let left = 1.0 - x;
+        [
+            left.powi(4) * (1.0 + 2.0 * x * (1.0 + x)),
+            left.powi(3) * (1.0 + 3.0 * x + 6.0 * x * x),
+            -30.0 * x * x * left * left,
+        ]
+    }),
+];
 
-            let grid = Grid::square(side, 1.0)?;
-            let law = Short::new(AREA.work_of_adhesion, shape, steepest);
-            let mut problem = Problem::new(&surface(AREA, grid, 3)?, half_space(grid)?, law)?;
-            let control = Control::MeanPressure(AREA.load);
-            let [loading, unloading] =
-                [Branch::Loading, Branch::Unloading].map(|branch| solve(&mut problem, control, branch));
-            let (loading, unloading) = (loading?, unloading?);
-            let areas = Areas::of(&loading)?;
-            let (there, back) = (&loading.report, &unloading.report);
-            line.push(format!("{:.3} %", 100.0 * areas.by_energy));
-            line.push(format!("{:.3} %", 100.0 * areas.corrected));
-            line.push((back.contact_nodes as i64 - there.contact_nodes as i64).to_string());
-            line.push(format!("{}, {}", there.operator_applications, back.operator_applications));
-            row(&line);
-        }
+/// A law of a work of adhesion that falls on each grid as steeply as the law of the library.
+#[derive(Clone, Copy)]
+struct Short {
+    work_of_adhesion: f64,
+    /// The range over √(w · compliance of a node).
+    reach: f64,
+    left: Left,
+    /// The range on a grid; zero before.
+    range: f64,
+}
+
+impl Short {
+    fn at(&self, gap: f64) -> [f64; 3] {
+        let (w, peak) = (self.work_of_adhesion, 2.0 * self.work_of_adhesion / self.range);
+        // without a range all of the attraction is in contact
+        let [energy, traction, slope] = (self.left)(if gap > 0.0 { (gap / self.range).min(1.0) } else { 0.0 });
+        [-w * energy, peak * traction, peak / self.range * slope]
     }
-    held_fronts(quick)
+}
+
+impl<T: Real> AdhesionLaw<T> for Short {
+    fn energy(&self, gap: T) -> T {
+        T::lit(self.at(gap.widen())[0])
+    }
+    fn traction(&self, gap: T) -> T {
+        T::lit(self.at(gap.widen())[1])
+    }
+    fn slope(&self, gap: T) -> T {
+        T::lit(self.at(gap.widen())[2])
+    }
+    fn hints(&self) -> Hints<T> {
+        let mut hints = Hints::new(T::lit(self.work_of_adhesion), T::lit(self.range)).named("short").concave();
+        hints.of_grid = true;
+        hints
+    }
+    fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
+        let range = self.reach * (self.work_of_adhesion * compliance.widen()).sqrt();
+        Some(Arc::new(Self { range, ..*self }))
+    }
 }
 
 /// The pull-off of the wave on many grids: its fronts are straight, and their place between the nodes is by chance.
-fn held_fronts(quick: bool) -> Outcome<()> {
+pub fn table(quick: bool) -> Outcome<()> {
     let grids = if quick { vec![128, 150] } else { vec![360, 400, 450, 486, 512, 540, 576, 600, 640, 720, 800, 1024] };
-    let title = format!("Pull-off of the wave over the exact one, and the range over √(wΔx/E*), on {grids:?} nodes");
-    head(&title, &["shape", "c", "range", "least", "mean", "largest", "applications in the mean"]);
-    for shape in [Shape::HalfCosine, Shape::CubicStep, Shape::QuinticStep, Shape::Square] {
-        for steepest in shape.slopes(if quick { &[0.25] } else { &[0.15, 0.2, 0.25, 0.3, 0.35] }) {
-            let (mut found, mut applications) = (Vec::new(), 0);
-            for &n in &grids {
-                let wave = Wave::line(n)?;
-                let (off, taken) = wave.pull_off(Short::new(wave.work_of_adhesion(), shape, steepest))?;
-                found.push(off);
-                applications += taken;
-            }
-            let count = found.len();
-            found.sort_by(f64::total_cmp);
-            let mut line = vec![shape.name_at(steepest), format!("{steepest:.3}")];
-            line.push(format!("{:.2}", shape.range(steepest)));
-            line.extend(
-                [found[0], found.iter().sum::<f64>() / count as f64, found[count - 1]].map(|x| format!("{x:.4}")),
-            );
-            line.push((applications / count).to_string());
-            row(&line);
+    head(
+        &format!("Pull-off of the wave over the exact one, and the range over √(wΔx/E*), on {grids:?} nodes"),
+        &["shape", "range", "least", "mean", "largest"],
+    );
+    for (name, steepest, left) in SHAPES {
+        let reach = (2.0 * steepest / STEEPEST).sqrt();
+        let mut found = Vec::new();
+        for &n in &grids {
+            let wave = Wave::line(n)?;
+            let law = Short { work_of_adhesion: wave.work_of_adhesion(), reach, left, range: 0.0 };
+            found.push(wave.pull_off(law)?);
         }
+        found.sort_by(f64::total_cmp);
+        let mean = found.iter().sum::<f64>() / found.len() as f64;
+        let mut cells = vec![name.to_owned(), format!("{reach:.2}")];
+        cells.extend(ratios([found[0], mean, found[found.len() - 1]]));
+        row(&cells);
     }
     Ok(())
 }
