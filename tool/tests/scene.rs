@@ -236,7 +236,11 @@ fn keys(report: &Value, found: &mut Vec<String>) {
 #[test]
 fn reports_are_one_document_whose_keys_are_documented() {
     let bench = rough();
-    let page = concat!(include_str!("../../docs/program/reports.md"), include_str!("../../docs/program/numbers.md"));
+    let page = concat!(
+        include_str!("../../docs/program/reports.md"),
+        include_str!("../../docs/program/numbers.md"),
+        include_str!("../../docs/program/keys.md")
+    );
     let quick = "--heights heights.npy --threads 1";
     for (arguments, expected) in [
         (format!("solve {quick} {ADHESION} --mean-gap 0.02 --leave --out one"), vec!["stability", "departures"]),
