@@ -9,16 +9,16 @@ use ndarray::Array2;
 
 use crate::constraint::ContactConstraint;
 use crate::error::{Error, Result};
-use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
+use crate::problem::{Control, Problem};
 use crate::real::{Real, once};
 use crate::solver::{
-    Begin, Criterion, Iteration, Observer, Place, ROUNDINGS, Report, Solution, Solved, Solver, Start, Status,
-    check_hardness, check_wall, refuse_springs,
+    Begin, Iteration, Place, Solution, Solved, Solver, Status, check_hardness, check_wall, refuse_springs,
 };
 use crate::stability::Watch;
 
 mod account;
 mod balance;
+mod bench;
 mod bracket;
 mod course;
 mod event;
@@ -33,11 +33,10 @@ mod trial;
 
 use account::Account;
 pub use account::PathEnd;
-use balance::Balance;
+use bench::Bench;
 use course::{Course, Way};
 pub use event::{Event, Jump};
 pub use settings::PathSettings;
-use sharp::Sharp;
 pub use step::PathStep;
 use trial::{Judgement, Trial};
 
@@ -140,19 +139,6 @@ pub struct Path<T> {
 
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
-
-/// The tolerance of a solve as a share of the root of the imbalance, if none is given: an energy is wrong by its square.
-const SHARE: f64 = 0.01;
-
-/// The largest such tolerance: less accurate states jump too early.
-const LOOSEST: f64 = 1e-4;
-
-/// What a path is followed with.
-pub(crate) struct Bench<'a, T: Real> {
-    solver: &'a mut Solver<dyn ContactConstraint<T>>,
-    problem: &'a mut Problem<T>,
-    observe: Observer<'a>,
-}
 
 impl<T: Real> Path<T> {
     /// The path through `loads`, from the first on.
@@ -295,7 +281,7 @@ impl<T: Real> Path<T> {
     /// The first step, unless it was stopped.
     fn begin(&mut self, bench: &mut Bench<'_, T>, control: Control) -> Result<Option<PathStep<T>>> {
         self.course = Course::on(&bench.problem.flat);
-        let mut solved = self.first(bench, control)?;
+        let mut solved = bench.first(self.start.take(), &self.settings, control)?;
         let mut on_saddle = solved.is_settled() && self.saddle(bench, &solved.solution)?.is_some();
         if on_saddle {
             let (left, _) = self.leave(bench, &solved.solution, control)?;
@@ -308,43 +294,6 @@ impl<T: Real> Path<T> {
         self.course.on_saddle = on_saddle;
         let solution = self.keep(bench.problem, solved)?;
         Ok(Some(self.step(solution, None)))
-    }
-
-    /// The first state. The default start is an equilibrium of the law itself.
-    fn first(&mut self, bench: &mut Bench<'_, T>, control: Control) -> Result<Solved<T>> {
-        let problem = &bench.problem;
-        let jumps = self.settings.smooth && smoothed_law(problem.operator(), problem.law_on_grid()).is_some();
-        match self.start.take() {
-            Some(start) => self.solve(bench, control, Begin::At(Start::From(&start))),
-            None if jumps => {
-                let (_, sharp) = self.solve(bench, control, Begin::At(Start::Default))?.with_place();
-                self.solve(bench, control, Begin::Found(sharp))
-            }
-            None => {
-                let begin = Begin::of_series(problem.law_on_grid(), &bench.solver.settings);
-                self.solve(bench, control, begin)
-            }
-        }
-    }
-
-    fn solve(&self, bench: &mut Bench<'_, T>, control: Control, begin: Begin<'_, T>) -> Result<Solved<T>> {
-        let parts = bench.problem.parts();
-        let sharp = Sharp(parts.law);
-        let smoothed = if self.settings.smooth { smoothed_law(&*parts.operator, parts.law) } else { None };
-        let law = match &smoothed {
-            _ if begin.is_default() => parts.law,
-            Some(smoothed) => smoothed,
-            None => &sharp,
-        };
-        let given = bench.solver.settings;
-        if given.tolerance.is_none() && given.criterion == Criterion::EnergyNorm {
-            let least = given.tolerance_in::<T>();
-            let tolerance = (SHARE * self.settings.imbalance.sqrt()).clamp(least, LOOSEST.max(least));
-            bench.solver.settings.tolerance = Some(tolerance);
-        }
-        let solved = bench.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *bench.observe);
-        bench.solver.settings = given;
-        solved
     }
 
     /// One step, unless its trial is not taken.
@@ -373,41 +322,25 @@ impl<T: Real> Path<T> {
         let (target, smallest) = self.course.next_target(&self.settings);
         let control = self.course.control(target);
         let (start, came_there) = self.predict(bench, target);
-        let mut solved = self.solve(bench, control, start)?;
+        let mut solved = bench.solve(&self.settings, control, start)?;
         // a long way after a jump may need another run-up
         for _ in 0..RETRIES {
             let short = matches!(solved.solution.report.status, Status::Stalled | Status::IterationLimit);
             if smallest && short && !solved.is_settled() {
-                solved = self.solve(bench, control, Begin::Found(solved.with_place().1))?;
+                solved = bench.solve(&self.settings, control, Begin::Found(solved.with_place().1))?;
             }
         }
         if solved.solution.report.status == Status::Stopped {
             self.failed = true;
             return Ok(None);
         }
-        let balance = self.balance(bench, target, &solved.solution.report);
+        let balance = bench.balance(&self.course, &self.settings, target, &solved.solution.report);
         let touches = solved.touches || came_there;
         let mut trial = Trial { target, smallest, touches, solved, balance, saddle: None };
         if trial.may_be_taken() {
             trial.saddle = self.saddle(bench, &trial.solved.solution)?;
         }
         Ok(Some(trial))
-    }
-
-    /// The balance of a step to a state.
-    fn balance(&self, bench: &Bench<'_, T>, target: f64, report: &Report) -> Balance {
-        let hints = bench.problem.law_on_grid().hints();
-        let flat = bench.problem.flat.work * bench.problem.flat.padding;
-        // where surfaces hardly touch, the energy is the small difference of sums as large as the energy of flat
-        // surfaces
-        let rounding = ROUNDINGS * T::epsilon().widen() * flat;
-        // the tolerance's share in it
-        let left = report.tolerance.powi(2) * flat;
-        let scale = (self.settings.imbalance, 1e-3 * hints.work_of_adhesion.widen());
-        let balance = self.course.balance(target, report, scale, (rounding, left), hints.touches());
-        // only adhesion makes surfaces jump
-        let (jumped, located) = (balance.jumped && !hints.zero, balance.located && !hints.zero);
-        Balance { jumped, located: located && self.settings.smallest_step.is_none(), ..balance }
     }
 
     /// Takes a step, from a saddle on to a state that is none; nothing if it is shortened instead, or was stopped.
@@ -423,7 +356,7 @@ impl<T: Real> Path<T> {
             }
             if let Some(left) = left {
                 (solved, on_saddle) = (left, false);
-                balance = self.balance(bench, target, &solved.solution.report);
+                balance = bench.balance(&self.course, &self.settings, target, &solved.solution.report);
                 way.jumped |= balance.jumped && !balance.balanced;
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }

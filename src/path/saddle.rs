@@ -2,7 +2,8 @@
 
 use ndarray::CowArray;
 
-use super::{Bench, Path};
+use super::Path;
+use super::bench::Bench;
 use crate::error::Result;
 use crate::problem::{Control, ProblemMut, smoothed_law};
 use crate::real::Real;
@@ -50,7 +51,7 @@ impl<T: Real> Path<T> {
             let amplitude = PERTURBATION * bench.problem.law_on_grid().hints().range.widen();
             let least = bench.least();
             self.watch.displace((&mut gap, &grid), least, amplitude, drawn.then_some(share));
-            let left = self.solve(bench, control, Begin::At(Start::From(&gap)))?;
+            let left = bench.solve(&self.settings, control, Begin::At(Start::From(&gap)))?;
             if !left.is_settled() {
                 self.failed |= left.solution.report.status == Status::Stopped;
                 break;
