@@ -18,22 +18,12 @@ from ..common.words import suggests
 from ..maps.arrays import read_field
 from ..maps.topography import Topography
 from ..plot import figures
-from .findings import (
-    Conductance,
-    Constriction,
-    ContactStatistics,
-    Percolation,
-    Plan,
-    PressureDistribution,
-)
+from .findings import Conductance, Constriction, ContactStatistics, Percolation, Plan, PressureDistribution
 from .numbers import Numbers, Report
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-
-#: The classes of nodes, in the order of the colours of the palette.
-CLASSES = ("apart", "contact", "attractive", "yielded")
 
 #: The fields of a folder that every solve leaves, and those that some do.
 FIELDS = ("gap", "pressure", "contact_pressure")
@@ -342,20 +332,8 @@ class Solution(Numbers):
         return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
 
     def _repr_html_(self) -> str:
-        import base64
-        import html
-
-        rows = "".join(
-            f"<tr><td style='text-align:left'>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>"
-            for name, value in self._looked[2]
-        )
         contact = self.contact.reshape(self.contact.shape[0], -1)
-        picture = _asperity.contact_picture(contact, self.lengths, self._told["length_unit"])
-        source = f"data:image/svg+xml;base64,{base64.b64encode(picture.encode()).decode()}"
-        return (
-            "<div style='display:flex;flex-wrap:wrap;gap:2em;align-items:center'>"
-            f"<table>{rows}</table><img src='{source}' alt='contact map' style='max-width:100%'></div>"
-        )
+        return figures.html(self._looked[2], _asperity.contact_picture(contact, self.lengths, self._told["length_unit"]))
 
     def plot(
         self,
@@ -395,36 +373,24 @@ class Solution(Numbers):
         pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
         length = figures.axis_unit("length_unit", self.report["length_unit"], length_unit)
         units = length, figures.axis_unit("pressure_unit", self.report["pressure_unit"], pressure_unit)
-        if colour_limits is not None and not (colour_limits[0] <= 0.0 < colour_limits[1]):
-            raise ValueError(
-                f"colour_limits are {colour_limits!r}: they must be (low, high), low zero or negative, and high positive"
-            )
+        figures.check_limits(colour_limits)
         if self.gap.ndim == 1:
             sides = (self._flattened, self.displacement)
             return figures.profiles(sides, pressure, self.lengths[0], *units, ax)
-        title, classes = f"contact {100 * self.contact_fraction:.3g} %", self._classes()
-        names: tuple[str, ...] = CLASSES
+        title, names = f"contact {100 * self.contact_fraction:.3g} %", figures.CLASSES
         if colour_clusters:
             sizes, classes = _asperity.clusters(self.contact, self.flow_boundary == "periodic")
             title, names = f"{title}, {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}", ()
+        else:
+            # absent nodes have no gap
+            attractive = round(self.statistics.attractive_fraction * np.count_nonzero(np.isfinite(self.gap)))
+            classes = figures.classes(self.contact, self.pressure, self.plastic_depth, attractive)
         ax = left, right = figures.two(ax, ncols=2, figsize=(8.2, 3.8), sharey=True, layout="compressed")
         figures.contact(left, classes, names, self.lengths, length)
         figures.pressure(right, pressure, self.lengths, adhesive, colour_limits, *units)
         left.set_title(title)
         right.set_ylabel("")
         return ax
-
-    def _classes(self) -> NDArray[np.int64]:
-        """The class of each node, by its place in `CLASSES`."""
-        classes = self.contact.astype(np.int64)
-        # the nodes of the greatest tensions, as many as attract
-        count = round(self.statistics.attractive_fraction * np.count_nonzero(np.isfinite(self.gap)))
-        tension = np.where(self.contact, -np.inf, -self.pressure)
-        if count > 0:
-            classes[tension >= np.partition(tension.ravel(), -count)[-count]] = 2
-        if self.plastic_depth is not None:
-            classes[self.plastic_depth > 0] = 3
-        return classes
 
 
 #: A start as functions take it.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import os
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from os import PathLike
@@ -190,7 +189,7 @@ class Contact(Posed):
         self.topography = replace(given, **self._posed.posed)
         self._facing = self._posed.facing
         self.turns = Turns()
-        if not isinstance(heights, Topography | str | os.PathLike) and against is None:
+        if not isinstance(heights, Topography | str | PathLike) and against is None:
             # the array may change before the heights are asked for
             self.topography = replace(self.topography, heights=self.topography.heights.copy())
         self.beyond_theory = self.problem.beyond_theory
@@ -396,6 +395,5 @@ class Contact(Posed):
         if self._is_kept:
             contact = copy.copy(self)
             contact._posed, contact.turns = self._problem(self.topography, self._given, False), Turns()
-            contact._is_kept = False
-            contact._warned = set()
+            contact._is_kept, contact._warned = False, set()
         return kind(contact, way, split_springs(keys), start, observe, file)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
+from html import escape
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -19,6 +21,9 @@ Unit: TypeAlias = tuple[float, str | None]
 
 #: Pressures of one sign that are all weaker than this share of the other sign's greatest are not shown.
 _NOISE = 1e-6
+
+#: The classes of nodes, in the order of the colours of the palette.
+CLASSES: tuple[str, ...] = ("apart", "contact", "attractive", "yielded")
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
@@ -127,6 +132,31 @@ def _bar(ax: Axes, image: Any, label: str, place: tuple[float, float] = (0.0, 1.
     figure.colorbar(image, cax=bar, label=label, extend=extend)
 
 
+def classes(
+    contact: NDArray[np.bool_], pressure: NDArray[Any], plastic_depth: NDArray[Any] | None, attractive: int
+) -> NDArray[np.int64]:
+    """The class of each node, by its place in `CLASSES`: the nodes of the greatest tensions attract, so many."""
+    found = contact.astype(np.int64)
+    tension = np.where(contact, -np.inf, -pressure)
+    if attractive > 0:
+        found[tension >= np.partition(tension.ravel(), -attractive)[-attractive]] = 2
+    if plastic_depth is not None:
+        found[plastic_depth > 0] = 3
+    return found
+
+
+def html(rows: list[tuple[str, str]], picture: str) -> str:
+    """A table beside a picture, an SVG, for a notebook."""
+    cells = "".join(
+        f"<tr><td style='text-align:left'>{escape(name)}</td><td>{escape(value)}</td></tr>" for name, value in rows
+    )
+    source = f"data:image/svg+xml;base64,{b64encode(picture.encode()).decode()}"
+    return (
+        "<div style='display:flex;flex-wrap:wrap;gap:2em;align-items:center'>"
+        f"<table>{cells}</table><img src='{source}' alt='contact map' style='max-width:100%'></div>"
+    )
+
+
 def contact(
     ax: Axes, classes: NDArray[np.int64], names: tuple[str, ...], lengths: tuple[float, float], length_unit: Unit
 ) -> None:
@@ -147,6 +177,12 @@ def contact(
         place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.0, 0.0), "bbox_transform": below}
         place |= {"borderaxespad": 0.0, "handlelength": 1.0, "columnspacing": 1.0}
         ax.legend(handles=legend, ncols=4, frameon=False, fontsize="small", **place)
+
+
+def check_limits(limits: tuple[float, float] | None) -> None:
+    """Refuses ends of the scales of both signs that are no such ends."""
+    if limits is not None and not (limits[0] <= 0.0 < limits[1]):
+        raise ValueError(f"colour_limits are {limits!r}: they must be (low, high), low zero or negative, and high positive")
 
 
 def pressure(
