@@ -3,7 +3,6 @@
 //! A map or a chart is drawn once, as shapes in points, and the same shapes are written in each of the formats. Text is
 //! in one proportional font that comes with the crate, its widths the same in all three formats.
 
-mod bar;
 mod chart;
 mod colours;
 mod distribution;

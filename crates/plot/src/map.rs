@@ -2,7 +2,6 @@
 
 use ndarray::ArrayView2;
 
-use crate::bar::{BAR, Bar, GAP};
 use crate::chart::{COLOURS, WIDTH, pieces};
 use crate::colours::{ATTRACTIVE, Colouring, Colours, MISSING, YIELDED, cluster_colour};
 use crate::frame::{
@@ -14,10 +13,14 @@ use crate::{Paper, Picture};
 use asperity::Grid;
 use asperity::{Error, Result};
 
+mod bar;
+
+use bar::{BAR, Bar, GAP};
+
 /// The steps along a colour bar in the key of a map.
 const SHADES: usize = 100;
 /// The pixels of a map to a point, for which its size is chosen.
-pub(super) const PIXELS: f64 = 2.0;
+const PIXELS: f64 = 2.0;
 
 /// The steps in which a map is fitted to the width of a paper.
 const FITS: usize = 3;

@@ -1,9 +1,9 @@
 //! Colour bars at the side of a map.
 
+use super::{Map, PIXELS};
 use crate::Picture;
 use crate::colours::Colours;
 use crate::frame::{STEP_BESIDE, draw_axis_beside, label_length};
-use crate::map::{Map, PIXELS};
 use crate::scale::{Axis, Part, three_digits};
 use crate::shape::{Area, BLACK, Curve, HAIRLINE, Image, Shape};
 
