@@ -4,6 +4,9 @@
 //! random scenes for stiffnesses of all sizes, and what it costs; `CASES` says on how many.
 //! `cargo test --release --test library constraints::figures -- --ignored --nocapture` prints the table of the guide.
 
+mod adhesive;
+mod uzawa;
+
 use approx::assert_relative_eq;
 use asperity::adhesion::Values;
 use asperity::constraint::{Springs, Wall, check_constraint};
@@ -11,6 +14,17 @@ use asperity::*;
 use oracles::outrun::Outrun;
 use oracles::scenes::{Features, Kind, Precision, Scene};
 use oracles::{energy_norms, rough, solve, sphere};
+
+const WALLED: Features =
+    Features { laws: &[Kind::None, Kind::None, Kind::Exponential, Kind::MaugisDugdale], ..Features::HARD };
+
+/// The solution by projection, and by Uzawa from springs of a stiffness, which took so many rounds.
+fn both<T: Real>(scene: &Scene, stiffness: f64) -> (Solution<T>, Solution<T>, usize) {
+    let mut solver = Solver { settings: scene.settings, constraint: Uzawa::new(stiffness).unwrap() };
+    let solution = solver.solve(&mut scene.problem::<T>().unwrap(), scene.control).unwrap();
+    let projected = Scene { start: None, ..scene.clone() }.solution().unwrap();
+    (projected, solution, solver.constraint.rounds())
+}
 
 fn with<T: Real, C: ContactConstraint<T> + 'static>(
     problem: &mut Problem<T>,
@@ -181,179 +195,6 @@ fn bad_stiffnesses_are_refused() {
     }
 }
 
-/// A rough surface, and a law that attracts ten times its range deep into the peaks at the default start.
-fn sticky() -> (Problem<f64>, Exponential, Control) {
-    let law = Exponential::new(2e-4, 3e-3).unwrap();
-    (rough(64, 8, law), law, Control::MeanGap(0.05))
-}
-
-#[test]
-fn penalty_and_uzawa_find_the_adhesive_state_of_a_rough_surface() {
-    let (mut problem, law, control) = sticky();
-    assert!(problem.mu_rho() < 0.7);
-    let exact = solve(&mut problem, control, 1e-8).report;
-    let mut last = f64::INFINITY;
-    for stiffness in [30.0, 300.0, 3000.0] {
-        let (solution, _) = with(&mut problem, Penalty::new(stiffness).unwrap(), control, 1e-7);
-        let report = &solution.report;
-        assert_eq!(report.status, Status::Converged);
-        // the springs carry the contact pressure, and the adhesion of contact
-        let deepest = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
-        assert_relative_eq!(report.min_gap, -deepest / stiffness, max_relative = 1e-9);
-        for ((&g, &p), &lambda) in solution.gap.iter().zip(&solution.pressure).zip(&solution.contact_pressure) {
-            let balance = p + law.traction(g.max(0.0)) - lambda;
-            assert!(balance.abs() < 1e-3 * deepest, "{g} {p} {lambda}");
-        }
-        let error = (report.mean_pressure / exact.mean_pressure - 1.0).abs();
-        assert!(error < 0.2 * last, "{stiffness} {error}");
-        last = error;
-        let (solution, uzawa) = with(&mut problem, Uzawa::new(stiffness).unwrap(), control, 1e-8);
-        assert_eq!((solution.report.status, uzawa.rounds() > 2), (Status::Converged, true));
-        assert_eq!(solution.report.contact_nodes, exact.contact_nodes);
-        assert_relative_eq!(solution.report.mean_pressure, exact.mean_pressure, max_relative = 1e-5);
-    }
-    assert!(last < 0.02, "{last}");
-}
-
-#[test]
-fn an_exponential_evaluated_at_negative_gaps_diverges_and_is_not_called_converged() {
-    let (mut problem, law, control) = sticky();
-    for stiffness in [30.0, 300.0] {
-        let diverged = [
-            with(&mut problem, Outrun(Penalty::new(stiffness).unwrap(), law), control, 1e-6).0,
-            with(&mut problem, Outrun(Uzawa::new(stiffness).unwrap(), law), control, 1e-6).0,
-        ];
-        for solution in diverged {
-            assert_eq!(solution.report.status, Status::Stalled);
-            // it is past the barrier that springs and law leave, where k|g| = φ'(g)
-            assert!(stiffness * -solution.report.min_gap < law.traction(solution.report.min_gap));
-            assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
-        }
-    }
-    // stiff springs leave a local minimum, which is found from next to it, where the law continues as its tangent
-    let springs = Penalty::new(3000.0).unwrap();
-    let (near, _) = with(&mut problem, springs, control, 1e-7);
-    let mut solver = Solver { settings: Settings::default(), constraint: Outrun(springs, law) };
-    let held = solver
-        .solve_with(&mut problem, control, Start::From(&near.gap), |_| std::ops::ControlFlow::Continue(()))
-        .unwrap();
-    assert_eq!(held.report.status, Status::Converged);
-    assert_relative_eq!(held.report.mean_pressure, near.report.mean_pressure, max_relative = 1e-2);
-}
-
-/// A law that is undefined, as it may be, where the surfaces interpenetrate.
-struct Positive(Exponential);
-
-impl AdhesionLaw<f64> for Positive {
-    fn energy(&self, gap: f64) -> f64 {
-        if gap < 0.0 { f64::NAN } else { self.0.energy(gap) }
-    }
-    fn traction(&self, gap: f64) -> f64 {
-        if gap < 0.0 { f64::NAN } else { self.0.traction(gap) }
-    }
-    fn slope(&self, gap: f64) -> f64 {
-        if gap < 0.0 { f64::NAN } else { self.0.slope(gap) }
-    }
-}
-
-#[test]
-fn no_law_is_asked_for_a_negative_gap() {
-    let (mut problem, law, control) = sticky();
-    let (expected, _) = with(&mut problem, Penalty::new(300.0).unwrap(), control, 1e-6);
-    let mut problem = rough::<f64>(64, 8, Positive(law));
-    let (found, _) = with(&mut problem, Penalty::new(300.0).unwrap(), control, 1e-6);
-    assert!(found.report.status == Status::Converged && found.report.min_gap < 0.0);
-    // the same steps, but for the last bits of the exponential, which the law computes for many gaps at once
-    assert!(found.gap.iter().zip(&expected.gap).all(|(found, expected)| (found - expected).abs() < 1e-9));
-    // nor where a start interpenetrates
-    let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(300.0).unwrap() };
-    let again = solver
-        .solve_with(&mut problem, control, Start::From(&found.gap), |_| std::ops::ControlFlow::Continue(()))
-        .unwrap();
-    assert_eq!(again.report.status, Status::Converged);
-}
-
-const WALLED: Features =
-    Features { laws: &[Kind::None, Kind::None, Kind::Exponential, Kind::MaugisDugdale], ..Features::HARD };
-
-/// The solution by projection, and by Uzawa from springs of a stiffness, which took so many rounds.
-fn both<T: Real>(scene: &Scene, stiffness: f64) -> (Solution<T>, Solution<T>, usize) {
-    let mut solver = Solver { settings: scene.settings, constraint: Uzawa::new(stiffness).unwrap() };
-    let solution = solver.solve(&mut scene.problem::<T>().unwrap(), scene.control).unwrap();
-    let projected = Scene { start: None, ..scene.clone() }.solution().unwrap();
-    (projected, solution, solver.constraint.rounds())
-}
-
-#[test]
-fn uzawa_ends_on_random_hard_walls() {
-    let [mut touched, mut otherwise] = [0; 2];
-    for seed in 0..400 {
-        let scene = Scene::of(seed, &Features { precisions: &[Precision::Mixed], ..Features::HARD });
-        // nothing tells how far a plane is to fall
-        if scene.is_flat() {
-            continue;
-        }
-        let (projected, solution, rounds) = both::<f64>(&scene, scene.stiffness);
-        // under the lightest loads springs stall where projection does not
-        let same = solution.report.status == projected.report.status;
-        otherwise += usize::from(!same);
-        assert!(same || solution.report.status == Status::Stalled, "{rounds} rounds in {scene}");
-        if solution.report.status == Status::Converged && projected.report.contact_nodes > 0 {
-            // an error of the tolerance in projection, in the last round, and for what interpenetrates after it
-            let (mut operator, surface) = (scene.operator::<f64>(), scene.surface());
-            let (difference, size, _) = energy_norms(&surface, &mut operator, &solution.gap, &projected.gap);
-            let (distance, tolerance) = ((difference / size).sqrt(), scene.settings.tolerance_in::<f64>());
-            assert!(distance <= 3.0 * tolerance, "{distance:e} to {tolerance:e} in {scene}");
-            touched += 1;
-        }
-    }
-    assert!(touched > 250 && otherwise <= 12, "{touched} touch, {otherwise} end otherwise");
-}
-
-#[test]
-#[ignore = "a measurement; see above"]
-fn uzawa_on_random_scenes() {
-    let cases = std::env::var("CASES").map_or(2000, |cases| cases.parse().unwrap());
-    let mut rows = std::collections::BTreeMap::<(bool, i32), Vec<(Status, Status, f64)>>::new();
-    for seed in 0..cases {
-        let scene = Scene::of(seed, &WALLED);
-        // in units of the shortest wave's, or of E*/L
-        let of_waves = seed % 2 == 0;
-        let unit = if of_waves { 1.0 } else { scene.grid.spacing().0 / scene.grid.lengths().0 };
-        let stiffness = unit * scene.stiffness;
-        let (projected, found) = if scene.precision == Precision::Single {
-            let (projected, found, _) = both::<f32>(&scene, stiffness);
-            (projected.report, found.report)
-        } else {
-            let (projected, found, _) = both::<f64>(&scene, stiffness);
-            (projected.report, found.report)
-        };
-        let cost = found.operator_applications as f64 / projected.operator_applications as f64;
-        let relative = scene.stiffness * scene.grid.spacing().0 / scene.modulus;
-        let row = rows.entry((of_waves, relative.log10().floor() as i32)).or_default();
-        row.push((projected.status, found.status, cost));
-    }
-    println!(
-        "stiffness                  scenes  at limit  stalled  projection stalled  applications over projection's: median, 9 of 10"
-    );
-    let mut limited = 0;
-    for ((of_waves, power), row) in &mut rows {
-        let at_limit = row.iter().filter(|(_, found, _)| *found == Status::IterationLimit).count();
-        let stalled = |status: &dyn Fn(&(Status, Status, f64)) -> Status| {
-            row.iter().filter(|case| status(case) == Status::Stalled).count()
-        };
-        let (ours, theirs) = (stalled(&|case| case.1), stalled(&|case| case.0));
-        let unit = if *of_waves { "of the shortest wave" } else { "E*/L" };
-        let name = format!("1e{power}-1e{} {unit}", power + 1);
-        row.sort_by(|a, b| a.2.total_cmp(&b.2));
-        let [median, most] = [row.len() / 2, row.len() * 9 / 10].map(|i| row[i].2);
-        println!("{name:<28} {:>4} {at_limit:>9} {ours:>8} {theirs:>19} {median:>8.1} {most:.1}", row.len());
-        limited += at_limit;
-    }
-    println!("at the limit: {limited} of {cases}");
-    assert!(limited as u64 * 50 <= cases);
-}
-
 #[test]
 fn report_and_contact_map_count_the_same_nodes() {
     fn agree<T: Real>(solution: &Solution<T>, name: &str) {
@@ -394,40 +235,6 @@ fn report_and_contact_map_count_the_same_nodes() {
 /// A figure of a table, to two digits.
 pub fn short(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
-}
-
-#[test]
-#[ignore = "prints the figures of the guide: cargo test --release --test library constraints::figures -- --ignored --nocapture"]
-fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
-    let grid = Grid::square(128, 1.0).unwrap();
-    let surface = SelfAffine::default().k_s(16.0).amplitude(Amplitude::RmsSlope(0.1));
-    let surface = surface.surface(grid).unwrap();
-    let control = Control::MeanPressure(0.01);
-    let laws: [Box<dyn AdhesionLaw<f64>>; 2] = [Box::new(NoAdhesion), Box::new(Exponential::new(2e-5, 2e-3).unwrap())];
-    for law in laws {
-        let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-        let exact = Solver::default().solve(&mut problem, control).unwrap();
-        let norm = |field: &ndarray::Array2<f64>| field.iter().map(|p| p * p).sum::<f64>().sqrt();
-        let print = |name: &str, rounds: usize, solution: &Solution<f64>| {
-            let report = &solution.report;
-            assert_eq!(report.status, Status::Converged);
-            let error = norm(&(&solution.contact_pressure - &exact.contact_pressure)) / norm(&exact.contact_pressure);
-            let [gap, error] = [report.min_gap, error].map(short);
-            let (applications, contact) = (report.operator_applications, 100.0 * report.contact_fraction);
-            println!("| {name} | {rounds} | {applications} | {gap} | {error} | {contact:.2} |");
-        };
-        println!("\n| | rounds | applications | deepest gap | error of the pressure | contact, % |");
-        println!("|---|---|---|---|---|---|");
-        print("projection", 1, &exact);
-        for k in [1e2, 1e3, 1e4, 1e5] {
-            let solution = with(&mut problem, Penalty::new(k).unwrap(), control, 1e-6).0;
-            print(&format!("penalty, k = {k:.0e}"), 1, &solution);
-        }
-        for k in [1.0, 1e1, 1e2, 1e3, 1e4] {
-            let (solution, uzawa) = with(&mut problem, Uzawa::new(k).unwrap(), control, 1e-6);
-            print(&format!("Uzawa, k = {k:.0e}"), uzawa.rounds(), &solution);
-        }
-    }
 }
 
 /// Springs with one wrong function, or that give way.

@@ -4,6 +4,9 @@
 //! end besides what [`ENDS`] states; `SCENES` is another number, `FIRST` the seed of the first. A scene that fails says
 //! its seed: `FIRST=seed SCENES=1` tries it alone, and prints all of it. `ENDS=Lost` lists the scenes with that [`End`].
 
+mod account;
+mod precision;
+
 mod oracle;
 
 use std::collections::BTreeMap;
@@ -11,6 +14,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::result::Result;
 
+use account::{Account, Tally};
 use asperity::solver::Iteration;
 use asperity::stability::Verdict;
 use asperity::*;
@@ -187,120 +191,6 @@ const ENDS: &[(Constraint, Kind, Rates)] = &[
     (Constraint::None, Kind::Varying, [[734, 982], [982, 982], [1000, 1000]]),
 ];
 
-/// The ends of the scenes of a combination.
-#[derive(Default)]
-struct Tally {
-    ends: BTreeMap<End, usize>,
-    iterations: Vec<usize>,
-}
-
-impl Tally {
-    fn of(&self, ends: &[End]) -> usize {
-        ends.iter().filter_map(|end| self.ends.get(end)).sum()
-    }
-
-    fn all(&self) -> usize {
-        self.of(&End::ALL)
-    }
-
-    /// Those that end solved, and those that end as well as rounding lets them.
-    fn good(&self) -> [usize; 2] {
-        [self.of(&[End::Converged, End::Detached]), self.of(&[End::Converged, End::Detached, End::Floor])]
-    }
-}
-
-/// How scenes ended, by constraint, law and precision, and what was found wrong.
-#[derive(Default)]
-struct Account {
-    tallies: BTreeMap<(Constraint, Kind, Precision), Tally>,
-    wrong: Vec<String>,
-    verdicts: [usize; 3],
-    compared: Vec<f64>,
-}
-
-impl Account {
-    fn of(seeds: std::ops::Range<u64>) -> Self {
-        let mut account = Self::default();
-        for seed in seeds {
-            let scene = Scene::new(seed);
-            match caught(&scene) {
-                Err(wrong) => account.wrong.push(wrong),
-                Ok(judged) => {
-                    let key = (scene.constraint, scene.law.kind, scene.precision);
-                    let tally = account.tallies.entry(key).or_default();
-                    *tally.ends.entry(judged.end).or_default() += 1;
-                    tally.iterations.push(judged.iterations);
-                    account.compared.extend(judged.distance);
-                    judged.verdicts.iter().for_each(|&verdict| account.verdicts[verdict as usize] += 1);
-                }
-            }
-        }
-        account
-    }
-
-    /// The combinations, laws, constraints and precisions with more bad ends than what is held lets expect, by three
-    /// standard deviations and one.
-    fn missed(&self) -> Vec<String> {
-        let mut groups = BTreeMap::<String, [[f64; 2]; 2]>::new();
-        for (&(constraint, law, precision), tally) in &self.tallies {
-            let rates = ENDS.iter().find(|(c, l, _)| (*c, *l) == (constraint, law)).map_or([[1000; 2]; 3], |row| row.2);
-            let alone = [format!("{constraint:?} as constraint"), format!("{law:?} as law"), format!("{precision:?}")];
-            for name in alone.into_iter().chain([format!("{constraint:?}, {law:?}, {precision:?}")]) {
-                let group = groups.entry(name).or_default();
-                let all = tally.all();
-                for ((count, good), rate) in group.iter_mut().zip(tally.good()).zip(rates[precision as usize]) {
-                    count[0] += (all - good) as f64;
-                    count[1] += all as f64 * (1.0 - 1e-3 * f64::from(rate));
-                }
-            }
-        }
-        let within = |[bad, expected]: [f64; 2]| bad <= expected + 3.0 * expected.sqrt() + 1.0;
-        let missed = groups.into_iter().filter(|(_, counts)| !counts.iter().all(|&count| within(count)));
-        missed
-            .map(|(name, counts)| format!("{name}: not solved, and not at the floor: found and held {counts:.1?}"))
-            .collect()
-    }
-
-    /// The rates that were found, as [`ENDS`] has them, and the ends.
-    fn print(&self) {
-        let rate = |good: usize, all: usize| 1000 * good / all;
-        let mut pairs: Vec<_> = self.tallies.keys().map(|(constraint, law, _)| (*constraint, *law)).collect();
-        pairs.dedup();
-        for (constraint, law) in pairs {
-            let of = |precision| self.tallies.get(&(constraint, law, precision));
-            let precisions = Features::ALL.precisions.iter();
-            let rates = precisions.map(|&p| of(p).map_or([0; 2], |tally| tally.good().map(|n| rate(n, tally.all()))));
-            println!("    (Constraint::{constraint:?}, Kind::{law:?}, {:?}),", rates.collect::<Vec<_>>());
-        }
-        println!("constraint law precision: scenes, {:?}; iterations: median, most", End::ALL);
-        for ((constraint, law, precision), tally) in &self.tallies {
-            let mut iterations = tally.iterations.clone();
-            iterations.sort_unstable();
-            let (median, most) = (iterations[iterations.len() / 2], iterations[iterations.len() - 1]);
-            let ends = End::ALL.map(|end| tally.of(&[end]));
-            println!("{constraint:?} {law:?} {precision:?}: {}, {ends:?}; {median}, {most}", tally.all());
-        }
-        let largest = self.compared.iter().copied().fold(0.0, f64::max);
-        println!(
-            "{} compared with an exact equilibrium, at most {largest:.2} of what is admitted",
-            self.compared.len()
-        );
-        println!("verdicts: {:?} stable, unstable, undecided", self.verdicts);
-    }
-
-    fn check(&self) {
-        self.wrong.iter().take(100).for_each(|wrong| println!("{wrong}"));
-        let missed = self.missed();
-        missed.iter().for_each(|missed| println!("{missed}"));
-        assert!(
-            self.wrong.is_empty() && missed.is_empty(),
-            "{} wrong, {} rates missed",
-            self.wrong.len(),
-            missed.len()
-        );
-    }
-}
-
 /// What may be wrong with a solution, by name.
 type Wrong = (&'static str, fn(&mut Solution<f64>));
 
@@ -465,65 +355,4 @@ fn all_scenes() {
     }
     account.print();
     account.check();
-}
-
-/// The certified error of a gap as it is, in `f64`.
-fn certified(scene: &Scene, gap: Array2<f64>) -> f64 {
-    let settings = Settings::default().max_iterations(0).tolerance(1e-30);
-    let control = Control::MeanGap(gap.mean().unwrap());
-    let scene = Scene { settings, control, start: Some(gap), ..scene.clone() };
-    scene.solution::<f64>().unwrap().report.relative_error
-}
-
-/// Light loads leave a displacement that is the small difference of heights and gap. The error of a gap in `f32`,
-/// computed in `f64`, is no larger than certified where the solve has converged, and where it has stalled hardly larger
-/// than the error of the exact gap rounded to `f32`.
-#[test]
-fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
-    let features = Features { precisions: &[Precision::Single], ..Features::HARD };
-    let (mut wrong, mut solved) = (Vec::new(), [0; 2]);
-    for seed in 0..400 {
-        let mut scene = Scene::of(seed, &features);
-        scene.settings.tolerance = Some(1e-5);
-        let springs = matches!(scene.control, Control::Spring { .. });
-        let tension = matches!(scene.control, Control::MeanPressure(p) | Control::Force(p) if p < 0.0);
-        if scene.relief == "flat" || springs || tension {
-            continue;
-        }
-        let Ok(Solution { gap, report, .. }) = scene.solution::<f32>() else { continue };
-        let reached = certified(&scene, gap.mapv(f64::from));
-        let said = report.relative_error;
-        if report.status == Status::Converged && reached > 3.0 * (said + f64::from(f32::EPSILON)) {
-            wrong.push(format!("{reached:.1e}, not {said:.1e}, in {scene}"));
-        }
-        solved[usize::from(report.status == Status::Stalled)] += 1;
-        // heights of few levels round alike, or not at all
-        let levels = matches!(scene.relief, "step" | "board" | "levels");
-        if report.status == Status::Stalled && said.is_finite() && !levels {
-            scene.settings.tolerance = Some(1e-12);
-            scene.start = None;
-            let exact = scene.solution::<f64>().unwrap();
-            let floor = certified(&scene, exact.gap.mapv(|g| f64::from(g as f32)));
-            // the exact gap of a few nodes may happen to round to hardly any error
-            let usual =
-                f64::from(f32::EPSILON) * (rounded_work(&scene, report.mean_gap) / report.elastic_energy).sqrt();
-            if reached > 40.0 * floor.max(usual).max(f64::from(f32::EPSILON)) {
-                wrong.push(format!("{reached:.1e}, and {floor:.1e} is possible, in {scene}"));
-            }
-        }
-    }
-    let [converged, stalled] = solved;
-    wrong.iter().for_each(|wrong| println!("{wrong}"));
-    assert!(
-        wrong.is_empty() && converged > 2 * stalled,
-        "{} wrong, {converged} converged, {stalled} stalled",
-        wrong.len()
-    );
-}
-
-/// The work ⟨u, p⟩ to which rounding adds a share ε².
-fn rounded_work(scene: &Scene, mean_gap: f64) -> f64 {
-    let (surface, dense) = (scene.centred(), scene.dense());
-    let rms = surface.iter().map(|h| h * h).sum::<f64>().sqrt() / (surface.len() as f64).sqrt();
-    dense.work(&surface) + dense.stiffest * mean_gap * (mean_gap + rms)
 }

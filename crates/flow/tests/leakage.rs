@@ -1,5 +1,8 @@
 //! Leakage against exact solutions, and against dense ones of the same network.
 
+mod dense;
+mod grid_error;
+
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -99,123 +102,6 @@ fn a_checkerboard_tends_to_the_geometric_mean() {
     };
     let errors = [8, 16, 32, 64].map(error);
     assert!(errors[3] < 2e-2 && errors.windows(2).all(|pair| pair[1] < 0.7 * pair[0]), "{errors:?}");
-}
-
-/// The conductance of the network along an axis by Gaussian elimination, from the definition.
-fn dense(values: &Array2<f64>, (lx, ly): (f64, f64), periodic: bool, axis: Axis) -> f64 {
-    let ((nx, ny), sides) = (values.dim(), [lx / values.dim().0 as f64, ly / values.dim().1 as f64]);
-    let (n, number) = (nx * ny, |i: usize, j: usize| i * ny + j);
-    // from, to (none at a side), conductance, pressure that falls besides the pressure of the nodes
-    let mut edges: Vec<(usize, Option<usize>, f64, f64)> = Vec::new();
-    for (i, j) in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
-        for way in Axis::BOTH {
-            let a = way as usize;
-            let (k, m) = [(i, nx), (j, ny)][a];
-            let (g, shape) = (values[[i, j]].powi(3), sides[1 - a] / sides[a]);
-            let to = if way == Axis::X { ((i + 1) % nx, j) } else { (i, (j + 1) % ny) };
-            let h = values[to].powi(3);
-            if (periodic || k + 1 < m) && g > 0.0 && h > 0.0 {
-                let driven = if way == axis && k + 1 == m { 1.0 } else { 0.0 };
-                edges.push((number(i, j), Some(number(to.0, to.1)), shape * 2.0 / (1.0 / g + 1.0 / h), driven));
-            }
-            if !periodic && way == axis && g > 0.0 {
-                // the first side is at a pressure of 1, and the last one at 0
-                if k == 0 {
-                    edges.push((number(i, j), None, 2.0 * shape * g, -1.0));
-                }
-                if k + 1 == m {
-                    edges.push((number(i, j), None, 2.0 * shape * g, 0.0));
-                }
-            }
-        }
-    }
-    let mut matrix = Array2::zeros((n, n + 1));
-    for &(from, to, c, driven) in &edges {
-        matrix[[from, from]] += c;
-        matrix[[from, n]] -= c * driven;
-        if let Some(to) = to {
-            matrix[[to, to]] += c;
-            matrix[[from, to]] -= c;
-            matrix[[to, from]] -= c;
-            matrix[[to, n]] += c * driven;
-        }
-    }
-    let scale: Vec<f64> = (0..n).map(|k| matrix[[k, k]]).collect();
-    for k in 0..n {
-        // a node that is closed, or the last one of a part without sides
-        if matrix[[k, k]] <= 1e-12 * scale[k] {
-            continue;
-        }
-        for row in (0..n).filter(|row| *row != k) {
-            let share = matrix[[row, k]] / matrix[[k, k]];
-            if share != 0.0 {
-                (0..=n).for_each(|column| matrix[[row, column]] -= share * matrix[[k, column]]);
-            }
-        }
-    }
-    let pressure = |k: usize| if matrix[[k, k]] <= 1e-12 * scale[k] { 0.0 } else { matrix[[k, n]] / matrix[[k, k]] };
-    let fall = |from, to: Option<usize>| pressure(from) - to.map_or(0.0, pressure);
-    let power: f64 = edges.iter().map(|&(from, to, c, driven)| c * (fall(from, to) + driven).powi(2)).sum();
-    // below the least of a single channel there is rounding alone
-    if power < 1e-20 { 0.0 } else { power }
-}
-
-#[test]
-fn bounds_enclose_dense_solutions_and_close() {
-    let lengths = (1.0, 1.7);
-    let mut flowing = 0;
-    for (case, (values, periodic)) in random_gaps(11).take(500).enumerate() {
-        let gap = Gap::new(values.view(), Grid::new(values.dim(), lengths).unwrap()).unwrap();
-        let gap = if periodic { gap } else { gap.free() };
-        for axis in Axis::BOTH {
-            let exact = dense(&values, lengths, periodic, axis) / 12.0;
-            for tolerance in [0.5, 1e-3, 1e-11] {
-                let flow = Leakage::default().tolerance(tolerance).along(&gap, &gap.percolation(), axis).unwrap();
-                let bounds = flow.transmissivity;
-                assert!(flow.reached && bounds.width() <= tolerance, "{case}: {bounds:?}");
-                // the rounding of the dense solution: its power is right to second order
-                let slack = 1e-13 * exact;
-                assert!(bounds.lower <= exact + slack && exact - slack <= bounds.upper, "{case}: {exact} {bounds:?}");
-                assert_eq!(bounds.upper > 0.0, gap.percolation().along(axis).is_some());
-            }
-            flowing += usize::from(exact > 0.0);
-        }
-    }
-    assert!(flowing > 200, "{flowing}");
-}
-
-/// The bounds of the conductance by means of the cubes: of a flow along straight lines, and of a pressure that is uniform
-/// across the axis.
-fn means(values: &Array2<f64>, (lx, ly): (f64, f64), axis: Axis) -> [f64; 2] {
-    let cubes = values.mapv(|gap| gap.powi(3));
-    let (along, across) = (ndarray::Axis(axis as usize), ndarray::Axis(1 - axis as usize));
-    let cells = cubes.len_of(along) as f64 / cubes.len_of(across) as f64;
-    let shape = if axis == Axis::X { ly / lx } else { lx / ly } * cells;
-    let lines = cubes.mapv(f64::recip).sum_axis(along).mapv(f64::recip).sum();
-    let layers = cubes.sum_axis(across).mapv(f64::recip).sum().recip();
-    [shape * lines, shape * layers]
-}
-
-#[test]
-fn bounds_of_means_enclose_dense_solutions_and_are_kept() {
-    let lengths = (1.0, 1.7);
-    let mut open = 0;
-    for (case, (values, periodic)) in random_gaps(23).take(500).enumerate() {
-        let gap = Gap::new(values.view(), Grid::new(values.dim(), lengths).unwrap()).unwrap();
-        let gap = if periodic { gap } else { gap.free() };
-        for axis in Axis::BOTH {
-            let [lines, layers] = means(&values, lengths, axis).map(|bound| bound / 12.0);
-            // the rounding of sums of some ten terms
-            let slack = 1.0 + 1e-13;
-            let exact = dense(&values, lengths, periodic, axis) / 12.0;
-            assert!(lines <= exact * slack && exact <= layers * slack, "{case}: {lines} {exact} {layers}");
-            let leakage = Leakage::default().tolerance(0.99).max_iterations(1);
-            let bounds = leakage.along(&gap, &gap.percolation(), axis).unwrap().transmissivity;
-            assert!(lines <= bounds.lower * slack && bounds.upper <= layers * slack, "{case}: {bounds:?}");
-            open += usize::from(lines > 0.0);
-        }
-    }
-    assert!(open > 100, "{open}");
 }
 
 #[test]
@@ -365,91 +251,6 @@ fn too_few_iterations_leave_bounds_apart_that_hold() {
 }
 
 #[test]
-fn the_error_of_the_grid_is_enclosed_where_the_gap_is_resolved() {
-    let epsilon = 0.6_f64;
-    let (along, across) =
-        (1.0 + 1.5 * epsilon.powi(2), 2.0 * (1.0 - epsilon.powi(2)).powf(2.5) / (2.0 + epsilon.powi(2)));
-    let estimate = |gap: &Gap<'_>| {
-        let settings = Leakage::default();
-        let leak = settings.through(gap).unwrap();
-        settings.grid_error(gap, &leak).unwrap()
-    };
-    for n in [32, 64, 128] {
-        let grid = Grid::square(n, 1.0).unwrap();
-        let values = grid.sample(|x, y| 1.0 + epsilon * (TAU * (x + y)).cos());
-        let gap = Gap::new(values.view(), grid).unwrap();
-        let error = (conductances(&gap)[0] / (0.5 * (along + across)) - 1.0).abs();
-        for told in estimate(&gap) {
-            // of second order: three times the error
-            assert!((told.unwrap() / error - 3.0).abs() < 0.6, "{n}: {told:?} {error}");
-        }
-    }
-    // a slot of whole nodes has none, a closed gap and one of an odd number of nodes are not told
-    let slot = Array2::from_shape_fn((16, 8), |(_, j)| if j < 4 { 2.0 } else { 0.0 });
-    let [x, y] = estimate(&Gap::new(slot.view(), Grid::new((16, 8), (2.0, 1.0)).unwrap()).unwrap());
-    assert!(x.unwrap() < 2e-4 && y.is_none());
-    let odd = Array2::from_elem((7, 8), 1.0);
-    assert_eq!(estimate(&Gap::new(odd.view(), Grid::new((7, 8), (1.0, 1.0)).unwrap()).unwrap()), [None; 2]);
-}
-
-/// The gap of a rough surface, of waves from 4 to `k_s` a side, under a mean pressure.
-fn pressed(n: usize, k_s: f64, pressure: f64, seed: u64) -> (Array2<f64>, Grid) {
-    let grid = Grid::square(n, 1.0).unwrap();
-    let rough = SelfAffine::default().k_l(4.0).k_s(k_s).amplitude(Amplitude::RmsSlope(0.1)).seed(seed);
-    let heights = rough.surface(grid).unwrap();
-    let mut problem = Problem::new(&heights, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    (Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap().gap, grid)
-}
-
-/// Prints the deviation of each transmissivity from that on the finest grid, and its estimate.
-#[test]
-#[ignore = "minutes: cargo test --release -p asperity-flow --test flow -- --ignored --nocapture error_of_the_grid"]
-fn the_error_of_the_grid_tells_when_a_rough_gap_is_not_resolved() {
-    let (mut all, mut below) = (0, 0);
-    for (seed, pressure) in [1, 2].into_iter().flat_map(|seed| [0.005, 0.015, 0.019, 0.0205, 0.022].map(|p| (seed, p)))
-    {
-        let found = [256, 512, 1024, 2048].map(|n| {
-            let (values, grid) = pressed(n, 32.0, pressure, seed);
-            let gap = Gap::new(values.view(), grid).unwrap();
-            let leak = Leakage::default().through(&gap).unwrap();
-            let errors = Leakage::default().grid_error(&gap, &leak).unwrap();
-            Axis::BOTH.map(|axis| (leak.along(axis).transmissivity.upper, errors[axis as usize]))
-        });
-        let [coarser @ .., finest] = &found;
-        for (k, coarse) in coarser.iter().enumerate() {
-            for (axis, ((own, told), (fine, _))) in Axis::BOTH.into_iter().zip(coarse.iter().zip(finest)) {
-                if let Some(told) = told.filter(|_| *fine > 0.0) {
-                    let deviation = (own / fine - 1.0).abs();
-                    println!("seed {seed}, {pressure}, {}², {axis:?}: {deviation:.4}, told {told:.4}", 256 << k);
-                    (all, below) = (all + 1, below + usize::from(deviation <= told));
-                    assert!(deviation < 1.25 * told, "{deviation} {told}");
-                }
-            }
-        }
-    }
-    println!("{below} of {all} are at most what is told");
-    assert!(all > 40 && 10 * below > 9 * all);
-}
-
-#[test]
-#[ignore = "a minute: cargo test --release -p asperity-flow --test flow -- --ignored --nocapture near_percolation"]
-fn a_gap_of_2048_squared_nodes_near_percolation_is_enclosed() {
-    let (values, grid) = pressed(2048, 128.0, 0.0205, 1);
-    let gap = Gap::new(values.view(), grid).unwrap();
-    let start = std::time::Instant::now();
-    let leak = Leakage::default().through(&gap).unwrap();
-    println!("{:?}, at most {:.0} MiB", start.elapsed(), Leakage::memory(&gap) / 1048576.0);
-    for axis in Axis::BOTH {
-        let (flow, constriction) = (leak.along(axis), leak.percolation.along(axis).unwrap());
-        println!("{axis:?} {:?} {} iterations", flow.transmissivity, flow.iterations);
-        assert!(flow.reached && flow.transmissivity.lower > 0.0);
-        // far below the transmissivity of the widest gap everywhere
-        let widest = values.iter().copied().fold(0.0, f64::max);
-        assert!(flow.transmissivity.upper < widest.powi(3) / 12.0 && constriction.gap < 0.1 * widest);
-    }
-}
-
-#[test]
 fn a_leakage_that_does_not_go_on_has_bounds_that_hold() {
     let grid = Grid::square(64, 1.0).unwrap();
     let wavy = grid.sample(|x, y| 1.0 + 0.9 * (TAU * (x + 2.0 * y)).cos() * (TAU * 3.0 * x).sin());
@@ -463,25 +264,5 @@ fn a_leakage_that_does_not_go_on_has_bounds_that_hold() {
         assert!(reached && !early && ended.lower < own.lower && own.upper < ended.upper, "{own:?} {ended:?}");
         // the preparation has the first looks
         assert_eq!(cut.along(axis).iterations, 0);
-    }
-}
-
-#[test]
-fn the_error_of_the_grid_covers_or_is_none_where_cells_meet_at_corners() {
-    // squares of two gaps, like a chequerboard: √(k₁k₂) by Keller, k = g³/12
-    for wide in [1.5, 2.0, 3.0, 5.0, 10.0, 100.0_f64] {
-        for (nodes, cells) in [(32, 4), (64, 4), (128, 4), (64, 2), (64, 8)] {
-            let grid = Grid::square(nodes, 1.0).unwrap();
-            let field = Array2::from_shape_fn((nodes, nodes), |(i, j)| {
-                if (i * cells / nodes + j * cells / nodes) % 2 == 0 { 1.0 } else { wide }
-            });
-            let gap = Gap::new(field.view(), grid).unwrap();
-            let leak = Leakage::default().through(&gap).unwrap();
-            let found = leak.along(Axis::X).transmissivity.upper;
-            let error = wide.powf(1.5) / 12.0 / found - 1.0;
-            let told = Leakage::default().grid_error(&gap, &leak).unwrap()[0];
-            // none where the transmissivity converges by less than a third from grid to grid
-            assert!(told.is_none_or(|told| error.abs() < told) && told.is_some() == (wide < 3.0), "{error} {told:?}");
-        }
     }
 }

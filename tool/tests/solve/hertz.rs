@@ -1,0 +1,222 @@
+//! Hertz' contact by the command solve.
+
+use super::*;
+
+#[test]
+fn demo() {
+    let bench = Bench::new();
+    let first = bench.run("demo");
+    assert_eq!((first.status.code(), text(&first.stderr)), (Some(0), String::new()));
+    let names = [
+        "contact-with-adhesion.png",
+        "contact-without-adhesion.png",
+        "heights.npy",
+        "heights.png",
+        "pressure-with-adhesion.png",
+        "pressure-without-adhesion.png",
+        "scene.toml",
+    ];
+    assert_eq!(bench.names("asperity-demo"), names);
+    assert_eq!(bench.names("."), ["asperity-demo"]);
+    for name in names.iter().filter(|name| name.ends_with(".png")) {
+        let (width, height, drawn) = picture(&bench, &format!("asperity-demo/{name}"));
+        assert!(width > 500 && height > 500 && drawn, "{name}");
+    }
+    let said = text(&first.stdout);
+    let row = |name: &str| -> Vec<f64> {
+        let line = said.lines().find(|line| line.starts_with(name)).unwrap();
+        line[name.len()..].split_whitespace().filter_map(|word| word.parse().ok()).collect()
+    };
+    let [bare, sticky] = row("contact")[..] else { panic!("{said}") };
+    assert!(sticky > 1.5 * bare, "{said}");
+    assert_eq!(row("mean pressure"), [5.0, 5.0]);
+    let stats = bench.run("stats asperity-demo/heights.npy --lengths 1um --json");
+    let stats: Value = serde_json::from_slice(&stats.stdout).unwrap();
+    let stated = said.split("rms height ").nth(1).unwrap().split(' ').next().unwrap().parse::<f64>().unwrap();
+    assert!((1e9 * number(&stats, "rms_height") / stated - 1.0).abs() < 1e-12, "{stats}");
+
+    // The printed command gives the same as the table.
+    let command = said.lines().find_map(|line| line.trim().strip_prefix("asperity ")).unwrap();
+    let again = bench.run(&format!("{command} --no-pictures"));
+    assert_eq!(again.status.code(), Some(0), "{}", text(&again.stderr));
+    let report = bench.report("asperity-demo/with-adhesion");
+    assert!((100.0 * number(&report, "contact_fraction") - sticky).abs() <= 0.05);
+    assert_eq!(row("iterations")[1], number(&report, "iterations"));
+    // the grid resolves the adhesion
+    assert!(number(&report, "mu_rho") < 0.5, "{report}");
+
+    // and so does its scene
+    let again = bench.run("run asperity-demo/scene.toml --no-pictures --json --out scene");
+    assert_eq!((again.status.code(), text(&again.stderr)), (Some(0), String::new()));
+    assert!(bench.bytes("scene/gap.npy") == bench.bytes("asperity-demo/with-adhesion/gap.npy"));
+    let first = bench.run("demo --json --out other");
+    let reports: Value = serde_json::from_slice(&first.stdout).unwrap();
+    assert_eq!(reports["with_adhesion"]["contact_nodes"], report["contact_nodes"]);
+    assert_eq!(reports["without_adhesion"]["law"], "none");
+    for folder in ["scene", "other"] {
+        fs::remove_dir_all(bench.path(folder)).unwrap();
+    }
+
+    // A second run replaces its own files by the same, and leaves others alone.
+    let before: Vec<_> = names.iter().map(|name| bench.bytes(&format!("asperity-demo/{name}"))).collect();
+    fs::write(bench.path("asperity-demo/heights.png"), "old").unwrap();
+    assert_eq!(bench.run("demo --threads 1").status.code(), Some(0));
+    let after: Vec<_> = names.iter().map(|name| bench.bytes(&format!("asperity-demo/{name}"))).collect();
+    assert!(before == after, "the demo depends on something");
+    assert_eq!(bench.names("asperity-demo/with-adhesion").len(), 5);
+}
+
+#[test]
+fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
+    let bench = paraboloid();
+    let report = bench.solve("--mean-gap 0.0398 --tolerance 1e-10", "results", 0);
+    assert_eq!(bench.names("results"), RESULTS);
+    assert_eq!(bench.names("."), ["heights.npy", "results"]);
+    for key in [
+        "status",
+        "relative_error",
+        "load_error",
+        "iterations",
+        "operator_applications",
+        "mean_gap",
+        "mean_pressure",
+        "mean_contact_pressure",
+        "contact_fraction",
+        "contact_nodes",
+        "min_gap",
+        "elastic_energy",
+        "adhesive_energy",
+        "mu_rho",
+        "under_resolved",
+        "precision",
+        "method",
+        "seconds",
+        "shape",
+        "lengths",
+        "modulus",
+        "law",
+        "control",
+        "tolerance",
+        "max_iterations",
+        "threads",
+        "version",
+    ] {
+        assert!(!report[key].is_null(), "{key}");
+    }
+    assert_eq!((&report["status"], &report["method"]), (&"converged".into(), &"default".into()));
+    assert_eq!((&report["precision"], &report["law"]), (&"f64".into(), &"none".into()));
+    assert_eq!(report["contact_nodes"], 61);
+    assert_eq!(number(&report, "contact_fraction"), 61.0 / 4096.0);
+    assert!(number(&report, "relative_error") <= 1e-10);
+    assert_close(number(&report, "mean_pressure"), 1.831421e-4, 5e-7 / 1.831421);
+    assert_close(number(&report, "mean_contact_pressure"), number(&report, "mean_pressure"), 1e-9);
+
+    let [gap, pressure, contact] = FIELDS.map(|name| bench.field(&format!("results/{name}")));
+    assert_complementary(&gap, &contact);
+    assert_close(gap.mean().unwrap(), 0.0398, 1e-12);
+    assert_close(pressure.mean().unwrap(), number(&report, "mean_pressure"), 1e-9);
+    assert_eq!(gap.iter().filter(|g| **g == 0.0).count(), 61);
+    // The full pressure is that in the contact, and hardly any outside of it.
+    assert!(pressure.iter().zip(&contact).all(|(p, c)| (p - c).abs() < 1e-8));
+    for name in ["contact.png", "pressure.png"] {
+        let (width, height, drawn) = picture(&bench, &format!("results/{name}"));
+        assert!(width > 500 && height > 500 && drawn, "{name}");
+    }
+
+    let arguments = format!("--mean-pressure {} --tolerance 1e-10", report["mean_pressure"]);
+    let back = bench.solve(&arguments, "back", 0);
+    assert_close(number(&back, "mean_gap"), 0.0398, 1e-8);
+    assert_eq!(back["contact_nodes"], 61);
+}
+
+#[test]
+fn both_methods_and_both_precisions_agree() {
+    let bench = paraboloid();
+    let paper = bench.solve("--mean-gap 0.0398 --method rey2017", "paper", 0);
+    assert_eq!((&paper["method"], &paper["contact_nodes"]), (&"rey2017".into(), &61.into()));
+    assert!(number(&paper, "relative_error") <= 1e-6);
+    let single = bench.solve("--mean-gap 0.0398 --precision f32 --tolerance 1e-3", "single", 0);
+    assert_eq!((&single["precision"], &single["contact_nodes"]), (&"f32".into(), &61.into()));
+    assert_close(number(&single, "mean_pressure"), 1.831421e-4, 1e-3);
+    for name in FIELDS {
+        assert!(bench.bytes(&format!("paper/{name}")).windows(3).any(|w| w == b"<f8"));
+        assert!(bench.bytes(&format!("single/{name}")).windows(3).any(|w| w == b"<f4"));
+    }
+    assert_complementary(&bench.field("single/gap.npy"), &bench.field("single/contact_pressure.npy"));
+    // The tolerance that f32 has by default can be met where there is enough contact.
+    let default = bench.solve("--mean-gap 0.02 --precision f32", "default", 0);
+    assert_eq!(number(&default, "tolerance"), 1e-4);
+}
+
+/// A .npy file of a square array.
+fn npy(dtype: &str, fortran: bool, n: usize, data: Vec<u8>) -> Vec<u8> {
+    let order = if fortran { "True" } else { "False" };
+    let header = format!("{{'descr': '{dtype}', 'fortran_order': {order}, 'shape': ({n}, {n}), }}");
+    let header = format!("{header:117}\n");
+    [b"\x93NUMPY\x01\0", &(header.len() as u16).to_le_bytes()[..], header.as_bytes(), &data].concat()
+}
+
+#[test]
+fn every_file_format_gives_the_same_answer() {
+    let bench = Bench::new();
+    // Not symmetric, so that a transposed map would be noticed; all heights are exact in f32.
+    let n = 32;
+    let heights = Array2::from_shape_fn((n, n), |(i, j)| -((i * i + 3 * j) as f64) / 4096.0);
+    let bytes = |values: Vec<f64>| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
+    let rows: Vec<f64> = heights.iter().copied().collect();
+    let little = npy("<f8", false, n, bytes(rows.clone()));
+    let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    zip.start_file("heights.npy", zip::write::SimpleFileOptions::default()).unwrap();
+    zip.write_all(&little).unwrap();
+    let lines = heights.rows().into_iter().map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(" "));
+    let files = [
+        ("little", little),
+        ("single", npy("<f4", false, n, rows.iter().flat_map(|v| (*v as f32).to_le_bytes()).collect())),
+        ("big", npy(">f8", false, n, rows.iter().flat_map(|v| v.to_be_bytes()).collect())),
+        ("fortran", npy("<f8", true, n, bytes(heights.t().iter().copied().collect()))),
+        ("archive", zip.finish().unwrap().into_inner()),
+        ("text", lines.collect::<Vec<_>>().join("\n").into_bytes()),
+    ];
+    for (name, content) in &files {
+        fs::write(bench.path(name), content).unwrap();
+        let output = bench.run(&format!("solve --heights {name} --mean-gap 0.05 --no-pictures --out out-{name}"));
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", text(&output.stderr));
+        for field in FIELDS {
+            assert!(
+                bench.bytes(&format!("out-{name}/{field}")) == bench.bytes(&format!("out-little/{field}")),
+                "{name} {field}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_given_start_saves_iterations() {
+    let bench = paraboloid();
+    let first = bench.solve("--mean-pressure 2e-4 --no-pictures", "first", 0);
+    let second = bench.solve("--mean-pressure 2e-4 --no-pictures --initial-gap first/gap.npy", "second", 0);
+    assert!(number(&second, "iterations") < 0.5 * number(&first, "iterations"));
+    assert_eq!(second["contact_nodes"], first["contact_nodes"]);
+    assert_eq!((&second["initial_gap"], &first["initial_gap"]), (&"first/gap.npy".into(), &Value::Null));
+}
+
+#[test]
+fn lines_and_rectangles_have_sensible_lengths() {
+    let (bench, hertz) = (Bench::new(), hertz(64));
+    let line = hertz.row(32).to_owned().insert_axis(ndarray::Axis(1));
+    write_npy(bench.path("heights.npy"), &line).unwrap();
+    for (arguments, lengths) in
+        [("--lengths 2", json!([2.0, 2.0])), ("--lengths 2 3", json!([2.0, 3.0])), ("", json!([1.0, 1.0]))]
+    {
+        let report = bench.solve(&format!("{arguments} --mean-gap 0.04 --force"), "line", 0);
+        assert_eq!((&report["shape"], &report["lengths"]), (&json!([64, 1]), &lengths));
+    }
+    assert_eq!(bench.names("line"), RESULTS);
+    write_npy(bench.path("heights.npy"), &Array2::from_shape_fn((64, 32), |(i, j)| hertz[[i, j]])).unwrap();
+    for (arguments, lengths) in
+        [("--lengths 2", json!([2.0, 1.0])), ("--lengths 2 3", json!([2.0, 3.0])), ("", json!([1.0, 1.0]))]
+    {
+        let report = bench.solve(&format!("{arguments} --mean-gap 0.04 --force"), "rectangle", 0);
+        assert_eq!((&report["shape"], &report["lengths"]), (&json!([64, 32]), &lengths));
+    }
+}
