@@ -114,8 +114,10 @@ impl Loop {
     /// The limit on a grid that has a coarser one.
     fn limit(&self, k: usize) -> Option<Limit> {
         let (n, coarse) = (self.nodes[k], &self.ends[k.checked_sub(1)?]);
-        let Limit { value, error } = LoopLimit::of((n, n), &self.ends[k], coarse).work;
-        Some(Limit { value: value / self.unit, error: error / self.unit })
+        let mut limit = LoopLimit::of((n, n), &self.ends[k], coarse).work;
+        limit.value /= self.unit;
+        limit.error /= self.unit;
+        Some(limit)
     }
 
     fn print(&self) {

@@ -27,8 +27,8 @@ mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
 pub use loop_grid::LoopGrid;
-pub use loops::{Limit, LoopLimit, OnGrid};
-pub use pull_off::{AccuratePullOff, Untold};
+pub use loops::{Limit, LoopLimit};
+pub use pull_off::{AccuratePullOff, NoEstimate};
 
 /// The quantity that an accuracy is asked for.
 #[non_exhaustive]
@@ -84,6 +84,7 @@ impl Quantity {
     ///
     /// # Errors
     /// [`Error::Unsuited`].
+    #[doc(hidden)]
     pub fn check(self, control: Control) -> Result<()> {
         let (what, reason) = match (self, control) {
             (Self::Gap, Control::MeanGap(_)) => {
@@ -320,7 +321,7 @@ impl GridError {
     pub const COARSE_TOLERANCE: f64 = 1e-3;
 
     /// The factor from the size of an error, such as an [`EdgeError`], to an estimate that covers 95 of 100.
-    pub const COVER: f64 = 2.4;
+    pub(crate) const COVER: f64 = 2.4;
 
     /// The nodes that the shortest wave needs on a grid with a solution that tells the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;

@@ -25,7 +25,7 @@ mod places;
 
 pub use area::ContactArea;
 pub use clusters::Clusters;
-pub use distribution::{PressureDistribution, bulk};
+pub use distribution::{PressureDistribution, bulk_range};
 pub use extremes::PressureExtremes;
 pub use original::Original;
 pub use patch::Patch;

@@ -205,7 +205,7 @@ impl Boundary {
 
 /// The foundation on which the half-space rests in the preconditioner, pressures per length.
 #[derive(Debug)]
-pub struct Foundation<'a> {
+pub(crate) struct Foundation<'a> {
     /// The stiffness for every wave.
     pub(crate) stiffness: f64,
     /// The stiffness for the mean; may be infinite.

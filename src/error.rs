@@ -129,6 +129,7 @@ pub enum Error {
 }
 
 /// The place at which a function [breaks its contract](Error::Contract).
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// A gap.
@@ -228,21 +229,25 @@ impl Error {
     }
 
     /// A file that could not be read or written, for `reason`.
+    #[doc(hidden)]
     pub fn file(path: impl AsRef<Path>, reason: impl Display) -> Self {
         Self::File { path: path.as_ref().to_owned(), reason: reason.to_string(), cause: None }
     }
 
     /// A file that could not be read, with the [source](StdError::source).
+    #[doc(hidden)]
     pub fn unreadable(path: impl AsRef<Path>, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::caused(path.as_ref(), format!("cannot be read: {cause}"), cause)
     }
 
     /// A file that could not be written, with the [source](StdError::source).
+    #[doc(hidden)]
     pub fn unwritable(path: impl AsRef<Path>, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::caused(path.as_ref(), format!("cannot be written: {cause}"), cause)
     }
 
     /// A file that is of no use for `reason`, with the [source](StdError::source).
+    #[doc(hidden)]
     pub fn caused(path: &Path, reason: String, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
     }

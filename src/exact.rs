@@ -56,7 +56,7 @@ pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use johnson::AdhesiveWavyLine;
 pub use maugis_dugdale::MaugisDugdale;
-pub use periodic::{C2, M1, Periodic, PeriodicContact};
+pub use periodic::{Periodic, PeriodicContact};
 pub use persson::Persson;
 pub use punch::FlatPunch;
 pub use sphere::Sphere;

@@ -116,6 +116,7 @@ impl Grid {
     }
 
     /// The value of each of the processes that share the grid, in their order. All of them have to ask.
+    #[doc(hidden)]
     pub fn each<E: Sent>(&self, own: E) -> Vec<E> {
         self.slab.each(own)
     }
@@ -126,6 +127,7 @@ impl Grid {
     }
 
     /// The grid for this process alone, as for [whole](Self::whole) fields.
+    #[doc(hidden)]
     pub fn alone(self) -> Self {
         Self { slab: Slab::whole(self.shape()), ..self }
     }

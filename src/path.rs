@@ -191,6 +191,7 @@ impl<T: Real> Path<T> {
 
     /// The last gaps, one ahead and the plastic depth, on the grid of the operator, and the softest mode, on the grid
     /// of the surface: processes that share a grid gather these of a path that they keep.
+    #[doc(hidden)]
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
         let gaps = self.places.iter_mut().chain(&mut self.ahead).map(|place| &mut place.gap);
         gaps.chain(&mut self.depth).chain(&mut self.watch.mode)
@@ -198,6 +199,7 @@ impl<T: Real> Path<T> {
 
     /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
     /// grid of the operator: processes that share a grid gather these as they do the fields.
+    #[doc(hidden)]
     pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
         self.places.iter_mut().chain(&mut self.ahead).filter_map(|place| place.not_parted.as_mut())
     }
@@ -208,6 +210,7 @@ impl<T: Real> Path<T> {
     /// [`Error::Value`] for a load that is not finite, or a negative mean gap; [`Error::Unsuited`] for a load that the
     /// problem does not have, and a periodic surface with absent nodes; [`Error::Unsuited`] for springs, and for a law that
     /// is not made for the wall.
+    #[doc(hidden)]
     pub fn check(&self, solver: &Solver<dyn ContactConstraint<T>>, problem: &Problem<T>) -> Result<()> {
         let (law, flat, wall) = (problem.law_on_grid(), &problem.flat, solver.constraint.wall());
         refuse_springs(wall)?;

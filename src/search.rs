@@ -119,12 +119,14 @@ impl<T: Real> ContactSearch<T> {
 
     /// The gap from which the next search starts, on the grid of the operator: processes that share a grid gather this of
     /// a search that they keep.
+    #[doc(hidden)]
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
         self.place.iter_mut().map(|place| &mut place.gap)
     }
 
     /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
     /// grid of the operator: processes that share a grid gather these as they do the fields.
+    #[doc(hidden)]
     pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
         self.place.iter_mut().filter_map(|place| place.not_parted.as_mut())
     }

@@ -294,7 +294,7 @@ fn check_gap<T: Real>(
 
 /// Where surfaces attract each other by a law that [does so next to contacts alone](crate::adhesion::Hints::touching).
 #[derive(Clone, Copy)]
-pub enum Near<'a> {
+pub(crate) enum Near<'a> {
     /// Next to the contacts of the gap.
     Contacts,
     /// At the nodes of a solution, or everywhere.

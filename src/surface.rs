@@ -169,6 +169,7 @@ impl Surface {
 
 /// The mean of the heights that are not missing, which are finite; NaN if all are missing. Sums are about the first of
 /// them, so that a large datum costs no digits.
+#[doc(hidden)]
 pub fn mean_of_finite(heights: &Array2<f64>) -> f64 {
     let mut known = heights.iter().copied().filter(|h| h.is_finite());
     let Some(datum) = known.next() else { return f64::NAN };

@@ -99,12 +99,14 @@ impl<T: Real> Sweep<T> {
 
     /// The gaps and the plastic depth from which the next load starts, on the grid of the operator: processes that share
     /// a grid gather these of a sweep that they keep.
+    #[doc(hidden)]
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
         self.history.iter_mut().map(|(_, place)| &mut place.gap).chain(&mut self.depth)
     }
 
     /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
     /// grid of the operator: processes that share a grid gather these as they do the fields.
+    #[doc(hidden)]
     pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
         self.history.iter_mut().filter_map(|(_, place)| place.not_parted.as_mut())
     }

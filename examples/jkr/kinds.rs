@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use asperity::accuracy::{AccuratePullOff, Quantity, Untold};
+use asperity::accuracy::{AccuratePullOff, NoEstimate, Quantity};
 use asperity::nested::Level;
 use asperity::{Boussinesq, Control, Grid, Jkr, PullOff, Solver, Surface};
 use common::{Outcome, quantile};
@@ -162,7 +162,7 @@ pub fn spheres(count: usize) -> Outcome<()> {
                 let holds = (limit * SIDE * SIDE / (1.5 * PI * work) - 1.0).abs() <= error.relative;
                 *(if holds { &mut within } else { &mut missed }) += 1;
             }
-            (_, Err(Untold::FewNodes { .. })) => few += 1,
+            (_, Err(NoEstimate::FewNodes { .. })) => few += 1,
             _ => others += 1,
         }
     }

@@ -1,5 +1,6 @@
 //! The grid on which a loop of loads has an accuracy, by the loop on coarser grids.
 
+use std::fmt;
 use std::sync::Arc;
 
 use super::goal::{DOUBT, NUMBERS, is_refinable, on_coarse, on_twice};
@@ -46,6 +47,13 @@ pub struct LoopGrid<T: Real> {
     pub refinable: bool,
     /// The next finer grid and its memory in bytes, if that is too much.
     pub unaffordable: Option<((usize, usize), f64)>,
+}
+
+impl<T: Real> fmt::Debug for LoopGrid<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let law = self.law.hints().known_as();
+        f.debug_struct("LoopGrid").field("surface", &self.surface).field("law", &law).finish_non_exhaustive()
+    }
 }
 
 impl Accuracy {

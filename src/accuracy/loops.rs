@@ -27,6 +27,7 @@ const SCATTERED: f64 = 128.0;
 const STANDARD: f64 = 2.0;
 
 /// A number on a grid in the limit of no range, where it has a first-order error.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limit {
@@ -80,6 +81,7 @@ impl Limit {
 /// assert!(0.0 < limit.work.error && limit.work.error < 0.2 * limit.work.value);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoopLimit {
@@ -90,7 +92,7 @@ pub struct LoopLimit {
 }
 
 /// A surface, and the law on its grid.
-pub type OnGrid<T> = (Surface, Arc<dyn AdhesionLaw<T>>);
+type OnGrid<T> = (Surface, Arc<dyn AdhesionLaw<T>>);
 
 impl LoopLimit {
     /// The least number of nodes along a side of the coarser grid.

@@ -58,7 +58,7 @@ const UNKNOWN: f64 = 0.85;
 /// Why the error of a pull-off is not told.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Untold {
+pub enum NoEstimate {
     /// The law has a range of its own.
     Range,
     /// The search has not come to its end.
@@ -102,7 +102,7 @@ pub struct AccuratePullOff<T: Real> {
     /// the one that changed less from the grid before.
     pub limit: Option<f64>,
     /// The estimated error of the limit, with the width of its bracket, or the reason why it is not told.
-    pub error: std::result::Result<GridError, Untold>,
+    pub error: std::result::Result<GridError, NoEstimate>,
     /// Whether the estimate meets the accuracy.
     pub reached: bool,
     /// Whether the surface and the law are known on finer grids, as in [`AccurateSolution`](super::AccurateSolution).
@@ -141,7 +141,7 @@ impl Accuracy {
     /// The given grid and one of half as many nodes along the sides are searched. As long as the estimated error of the
     /// [limit](AccuratePullOff::limit) exceeds the accuracy, the surface is put on twice as many nodes, as by
     /// [`Accuracy::solve`]. With a law that has a range of its own the given grid alone is searched, without an estimate.
-    /// [`Untold`] has the reasons for which two grids tell none.
+    /// [`NoEstimate`] has the reasons for which two grids tell none.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
@@ -228,7 +228,13 @@ impl Accuracy {
             let limit = error.ok().map(|_| limits(&levels)[0]);
             let ended = match error {
                 Ok(error) => error.relative <= self.target,
-                Err(Untold::Closed(_) | Untold::Strong(_) | Untold::Edge | Untold::Unreached | Untold::Range) => true,
+                Err(
+                    NoEstimate::Closed(_)
+                    | NoEstimate::Strong(_)
+                    | NoEstimate::Edge
+                    | NoEstimate::Unreached
+                    | NoEstimate::Range,
+                ) => true,
                 Err(_) => found.solution.report.status == Status::Stopped,
             };
             let reached = !refines || error.is_ok() && ended;
@@ -302,10 +308,10 @@ impl<T: Real> Searches<'_, '_, T> {
 }
 
 /// So few nodes bear the pull-off, on a grid that has to be so many times finer.
-fn too_few(surface: &Surface, nodes: f64, finer: f64, bytes: impl Fn(i32) -> f64) -> Untold {
+fn too_few(surface: &Surface, nodes: f64, finer: f64, bytes: impl Fn(i32) -> f64) -> NoEstimate {
     let doubled = finer.log2().ceil() as i32;
     let needed = (0..doubled).fold(surface.grid().shape(), |shape, _| twice(shape));
-    Untold::FewNodes { nodes, needed, bytes: bytes(doubled) }
+    NoEstimate::FewNodes { nodes, needed, bytes: bytes(doubled) }
 }
 
 /// The tensions between which the pull-off on the next finer grid is expected, from the pull-offs on coarser grids: it changes
@@ -354,32 +360,32 @@ fn error<T: Real>(
     levels: &[((usize, usize), [f64; 2])],
     of_grid: bool,
     (is_known, nodes_per_wave, adhesion): (bool, f64, f64),
-) -> std::result::Result<GridError, Untold> {
+) -> std::result::Result<GridError, NoEstimate> {
     if !of_grid {
-        return Err(Untold::Range);
+        return Err(NoEstimate::Range);
     }
     if !found.reached {
-        return Err(Untold::Unreached);
+        return Err(NoEstimate::Unreached);
     }
     if let Some(share) = found.closed_share().filter(|share| *share > NEARLY_CLOSED) {
-        return Err(Untold::Closed(share));
+        return Err(NoEstimate::Closed(share));
     }
     if adhesion > STRONG {
-        return Err(Untold::Strong(adhesion));
+        return Err(NoEstimate::Strong(adhesion));
     }
     if found.solution.report.reaches_edge {
-        return Err(Untold::Edge);
+        return Err(NoEstimate::Edge);
     }
     if nodes_per_wave < 2.0 * GridError::LEAST_NODES_PER_WAVE {
-        return Err(Untold::Waves(nodes_per_wave));
+        return Err(NoEstimate::Waves(nodes_per_wave));
     }
     let limits = limits(levels);
     let (&[limit, coarse, ..], Some((_, [tension, of_zone]))) = (&limits[..], levels.last().filter(|_| is_known))
     else {
-        return Err(Untold::OneGrid);
+        return Err(NoEstimate::OneGrid);
     };
     if limit > GROWTH * coarse {
-        return Err(Untold::Growth(limit / coarse));
+        return Err(NoEstimate::Growth(limit / coarse));
     }
     let bracket = found.lost.map_or(0.0, |lost| lost - tension);
     let [zone, difference] = FACTORS;

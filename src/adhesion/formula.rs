@@ -28,6 +28,7 @@ pub type Formula = Arc<dyn AnyLaw>;
 /// An adhesion law in both precisions that can be compared with others: every type that is a law and has an equality.
 pub trait AnyLaw: AdhesionLaw<f32> + AdhesionLaw<f64> + Any {
     /// Whether another law is of the same type and equal.
+    #[doc(hidden)]
     fn equals(&self, other: &dyn AnyLaw) -> bool;
 }
 

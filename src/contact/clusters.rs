@@ -36,7 +36,7 @@ impl Clusters {
     }
 
     /// The clusters as [`Clusters::of`], on a map with opposite sides that meet only if the boundary is periodic.
-    pub fn within(map: ArrayView2<'_, bool>, boundary: Boundary) -> Self {
+    pub(crate) fn within(map: ArrayView2<'_, bool>, boundary: Boundary) -> Self {
         let periodic = boundary.is_periodic();
         Self::meeting(map, [periodic; 2])
     }

@@ -42,7 +42,7 @@ const MOST_BINS: usize = 1 << 24;
 
 impl PressureDistribution {
     /// The distribution of the contact pressure over the nodes in contact, in bins from zero to the largest, or to 1
-    /// without any; its integral is the contact fraction. Where some pressures, as on spikes, are above the [`bulk`],
+    /// without any; its integral is the contact fraction. Where some pressures, as on spikes, are above the [`bulk_range`],
     /// the last of several bins is wider and has these pressures.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl PressureDistribution {
         Error::shape("contact pressure", contact_pressure.dim(), gap.dim())?;
         let contact = contact_map(gap, contact_pressure);
         let counted = || contact.iter().zip(contact_pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
-        let (_, high) = bulk(counted()).filter(|(_, high)| *high > 0.0).unwrap_or((0.0, 1.0));
+        let (_, high) = bulk_range(counted()).filter(|(_, high)| *high > 0.0).unwrap_or((0.0, 1.0));
         Ok(Self::count(counted(), (0.0, high), bins, facing(gap)))
     }
 
@@ -130,13 +130,13 @@ const MOST: usize = 1_000_000;
 /// that are not finite are left out. None without values.
 ///
 /// ```
-/// use asperity::contact::bulk;
+/// use asperity::contact::bulk_range;
 /// let mut heights: Vec<f64> = (0..1000).map(|k| f64::from(k).sin()).collect();
-/// let range = bulk(heights.iter().copied());
+/// let range = bulk_range(heights.iter().copied());
 /// heights.push(40.0);
-/// assert_eq!(bulk(heights.iter().copied()), range);
+/// assert_eq!(bulk_range(heights.iter().copied()), range);
 /// ```
-pub fn bulk(values: impl Iterator<Item = f64> + Clone) -> Option<(f64, f64)> {
+pub fn bulk_range(values: impl Iterator<Item = f64> + Clone) -> Option<(f64, f64)> {
     let values = values.filter(|value| value.is_finite());
     // the odd step avoids always the same columns
     let step = (values.clone().count() / MOST) | 1;

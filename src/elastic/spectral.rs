@@ -87,6 +87,7 @@ impl<T: Real> Spectral<T> {
 
     /// Sets whether a solve in `f64` may have its corrections by this operator in `f32`, as by default it does: gap,
     /// pressure and certificate are in `f64` either way.
+    #[doc(hidden)]
     pub fn set_single(&mut self, single: bool) {
         self.single = single;
     }

@@ -11,10 +11,10 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 
 /// The lattice constant M₁ = −4ζ(½)β(½): −Σ1/n over the square lattice without its origin, the mean removed.
-pub const M1: f64 = 3.900_264_920_001_956;
+const M1: f64 = 3.900_264_920_001_956;
 
 /// The lattice constant c₂ = ζ(3/2)β(3/2): a quarter of the sum of 1/n³ over the square lattice without its origin.
-pub const C2: f64 = 2.258_405_420_775_237_6;
+const C2: f64 = 2.258_405_420_775_237_6;
 
 /// A sphere among its periodic images on a square of side L, which shift and bend the surface, to the second order in
 /// the distance from the axis: an exact solution on a paraboloid of radius R_e.
@@ -24,7 +24,7 @@ pub const C2: f64 = 2.258_405_420_775_237_6;
 /// ḡ = −⟨h⟩ − δ(R_e) + M₁P/(πE*L) − c₂/(πE*L³) · ∫ r² p dA
 /// ```
 ///
-/// with M₁ = [`M1`], c₂ = [`C2`], δ the approach of the sphere, and ⟨h⟩ the mean height, h = 0 at the apex: −L²/12R,
+/// with M₁ = 3.9003, c₂ = 2.2584, δ the approach of the sphere, and ⟨h⟩ the mean height, h = 0 at the apex: −L²/12R,
 /// or [`Surface::mean`](crate::Surface::mean) of a numerical solution. The next term, of relative order (a/L)⁵ in the
 /// shape of the surface, is neglected. Contacts with c ≤ L/3 are accepted.
 ///

@@ -288,6 +288,10 @@ fn zeta_beta(s: f64) -> (f64, f64) {
     (eta / (1.0 - 2f64.powf(1.0 - s)), alternating(&|k| (2.0 * k + 1.0).powf(-s)))
 }
 
+/// −Σ1/n over the square lattice without its origin, the mean removed, and a quarter of Σ1/n³.
+const M1: f64 = 3.900_264_920_001_956;
+const C2: f64 = 2.258_405_420_775_237_6;
+
 #[test]
 fn lattice_constants() {
     // (their sums over the lattice are in the module's own tests)

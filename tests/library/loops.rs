@@ -78,7 +78,7 @@ fn converges((name, exact): (&str, f64), height: impl Fn(f64) -> f64, loads: [Co
     assert_eq!(found[2].1, ["touch", "pull-off"], "{name}");
     let ends = found.map(|(end, _)| end);
     let [coarse, medium, fine] = ends.map(|end| end.work / exact);
-    let Limit { value, error } = LoopLimit::of((96, 96), &ends[2], &ends[1]).work;
+    let Limit { value, error, .. } = LoopLimit::of((96, 96), &ends[2], &ends[1]).work;
     println!("| {name} | {coarse:.3} | {medium:.3} | {fine:.3} | {:.3} | {:.3} |", value / exact, error / exact);
     let errors = [coarse, medium, fine].map(|energy| (energy - 1.0).abs());
     assert!(errors[2] < most, "{name}: {errors:?}");
@@ -88,7 +88,7 @@ fn converges((name, exact): (&str, f64), height: impl Fn(f64) -> f64, loads: [Co
         assert!((0.6..1.5).contains(&order) || pair[1] < 0.01, "{name}: order {order}, {errors:?}");
     }
     for (n, pair) in [48, 96].into_iter().zip(ends.windows(2)) {
-        let Limit { value, error } = LoopLimit::of((n, n), &pair[1], &pair[0]).work;
+        let Limit { value, error, .. } = LoopLimit::of((n, n), &pair[1], &pair[0]).work;
         assert!((value - exact).abs() < error && error < told * exact, "{name}: {} ± {}", value / exact, error / exact);
     }
 }

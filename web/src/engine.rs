@@ -1,7 +1,7 @@
 //! The engine: a map, the surface that is made of it, and the solves on that.
 
 use asperity::Grid;
-use asperity::contact::bulk;
+use asperity::contact::bulk_range;
 use asperity_maps::io::{Reading, channels, check_memory, map_as_npz};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
@@ -148,7 +148,7 @@ impl Engine {
             "mean": map.mean(),
             "lowest": low,
             "highest": high,
-            "limits": bulk(map.heights.iter().copied()).unwrap_or_default(),
+            "limits": bulk_range(map.heights.iter().copied()).unwrap_or_default(),
             "warnings": warnings,
             "log": lines,
         })

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use asperity::contact::{Region, bulk};
+use asperity::contact::{Region, bulk_range};
 use asperity::solver::Iteration;
 use asperity::{Grid, Solution, Surface};
 use asperity_maps::io::npz;
@@ -102,7 +102,7 @@ impl<T: Scalar> State<T> {
     fn answer(&self, last: &Last<T>, started: bool) -> Outcome<Value> {
         let (account, part) = (&last.account, last.found.part()?);
         let of = |field: &Array2<T>| extremes(field.iter().map(|value| value.widen()));
-        let gaps = bulk(part.gap.iter().map(|value| value.widen()).filter(|gap| *gap > 0.0)).unwrap_or_default();
+        let gaps = bulk_range(part.gap.iter().map(|value| value.widen()).filter(|gap| *gap > 0.0)).unwrap_or_default();
         let pressure = if self.session.scene().adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
         let [tension, compression] = [-1.0, 1.0].map(|sign| {
             let values: Vec<f64> = pressure.iter().map(|value| sign * value.widen()).collect();

@@ -9,6 +9,7 @@
 
 pub mod io;
 mod knee;
+#[doc(hidden)]
 pub mod numbers;
 mod topography;
 pub mod warning;

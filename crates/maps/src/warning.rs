@@ -145,6 +145,7 @@ impl Warning {
     /// use asperity_maps::warning::Warning;
     /// assert_eq!([2.0, 0.01234, 1.5e-9].map(Warning::figure), ["2", "0.0123", "1.5e-9"]);
     /// ```
+    #[doc(hidden)]
     pub fn figure(value: f64) -> String {
         rounded(value, 3, 1e5)
     }

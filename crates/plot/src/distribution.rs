@@ -1,11 +1,11 @@
 //! The distribution of values.
 
-use asperity::contact::bulk;
+use asperity::contact::bulk_range;
 
 use crate::colours::percent;
 use crate::scale::three_digits;
 
-/// The distribution of values, in classes over their [`bulk`].
+/// The distribution of values, in classes over their [`bulk_range`].
 ///
 /// ```
 /// use asperity_plot::Distribution;
@@ -26,7 +26,7 @@ impl Distribution {
     /// The distribution of the values that are finite, in so many classes; the values have a `unit`.
     pub fn of(values: impl Iterator<Item = f64> + Clone, classes: usize, unit: Option<&str>) -> Self {
         let values = values.filter(|value| value.is_finite());
-        let Some((low, high)) = bulk(values.clone()) else { return Self::default() };
+        let Some((low, high)) = bulk_range(values.clone()) else { return Self::default() };
         let mut counts = vec![0_usize; classes.max(1)];
         let last = counts.len() - 1;
         let width = (high - low) / counts.len() as f64;

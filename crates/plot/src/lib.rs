@@ -10,6 +10,7 @@ mod font;
 mod frame;
 mod load;
 mod map;
+#[doc(hidden)]
 pub mod page;
 mod pdf;
 mod png;

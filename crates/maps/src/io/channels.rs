@@ -6,6 +6,7 @@ use super::{Parsed, quoted, refuse};
 const MOST_NAMES: usize = 10;
 
 /// A channel of a file.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Channel {
     /// The number.

@@ -41,6 +41,7 @@ fn memory_line(name: &str) -> Option<f64> {
 /// assert_eq!(check_memory("a solve", (1 << 40, 1 << 40), 40).unwrap_err().kind(), ErrorKind::Memory);
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[doc(hidden)]
 pub fn check_memory(what: &str, (nx, ny): (usize, usize), bytes_per_node: usize) -> Result<()> {
     let bytes = nx as f64 * ny as f64 * bytes_per_node as f64;
     if is_there(bytes) { Ok(()) } else { Err(Error::Memory { what: format!("{what} on {nx} x {ny} nodes"), bytes }) }

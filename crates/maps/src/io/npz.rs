@@ -157,6 +157,7 @@ pub fn write_npz<T: Real>(path: impl AsRef<Path>, grid: &Grid, fields: &[(&str, 
 /// # Errors
 ///
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if there is no memory for the bytes.
+#[doc(hidden)]
 pub fn npz<T: Real>(grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result<Vec<u8>> {
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
     let known = Known { lengths: Some(grid.lengths()), ..Known::default() };
@@ -168,6 +169,7 @@ pub fn npz<T: Real>(grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result
 /// # Errors
 ///
 /// [`Error::File`] if there is no memory for the bytes.
+#[doc(hidden)]
 pub fn map_as_npz(map: &Topography) -> Result<Vec<u8>> {
     let heights = [("heights", map.heights.view())];
     let seed = map.seed.map(|seed| seed.to_string());

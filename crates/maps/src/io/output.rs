@@ -26,6 +26,7 @@ use asperity::{Error, Result};
 /// assert!(destination.join("gap.npy").exists());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(hidden)]
 #[derive(Debug)]
 pub struct OutputFolder {
     destination: PathBuf,

@@ -1,6 +1,6 @@
 //! The pull-off of a problem, with the sentences of its report.
 
-use asperity::accuracy::{AccuratePullOff, GridError, Untold};
+use asperity::accuracy::{AccuratePullOff, GridError, NoEstimate};
 use asperity::pull_off::FoundPullOff;
 use asperity::{Branch, PullOff, Real, Report, Status};
 use serde::Serialize;
@@ -69,25 +69,25 @@ fn reason<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>) -> Option<String
         Err(reason) => return Some(reason.to_owned()),
     };
     Some(match untold {
-        Untold::Range => PulledOff::OF_A_RANGE.to_owned(),
-        Untold::Unreached => "the search has not come to its end".to_owned(),
-        Untold::FewNodes { nodes, needed: (nx, ny), .. } => {
+        NoEstimate::Range => PulledOff::OF_A_RANGE.to_owned(),
+        NoEstimate::Unreached => "the search has not come to its end".to_owned(),
+        NoEstimate::FewNodes { nodes, needed: (nx, ny), .. } => {
             let nodes = if nodes < 1.5 { "one node bears".to_owned() } else { format!("{nodes:.0} nodes bear") };
             format!("{nodes} it: its contacts need {nx} x {ny} nodes")
         }
-        Untold::Closed(share) => format!(
+        NoEstimate::Closed(share) => format!(
             "the surfaces are closed, {} % of them in contact: the grid decides where they begin to peel",
             percent(share)
         ),
-        Untold::Strong(adhesion) => format!(
+        NoEstimate::Strong(adhesion) => format!(
             "the adhesion is strong, w is {adhesion:.3} E*h'^2 times the shortest wave: the grid decides which contacts \
              peel first"
         ),
-        Untold::Edge => "contacts reach the edge of the map, where each grid ends elsewhere".to_owned(),
-        Untold::Waves(nodes) => {
+        NoEstimate::Edge => "contacts reach the edge of the map, where each grid ends elsewhere".to_owned(),
+        NoEstimate::Waves(nodes) => {
             format!("the shortest wave has {nodes:.1} nodes and needs {}", 2.0 * GridError::LEAST_NODES_PER_WAVE)
         }
-        Untold::Growth(times) => format!("it is {times:.2} times the pull-off on the coarser grid"),
+        NoEstimate::Growth(times) => format!("it is {times:.2} times the pull-off on the coarser grid"),
         _ => "the grid of half as many nodes tells no pull-off".to_owned(),
     })
 }
@@ -96,7 +96,7 @@ fn reason<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>) -> Option<String
 fn to_report<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>, report: &Report) -> Option<&'static str> {
     match accurate.map(|found| found.error) {
         Ok(Ok(_)) => Some("limit_pressure"),
-        Ok(Err(Untold::FewNodes { .. })) => None,
+        Ok(Err(NoEstimate::FewNodes { .. })) => None,
         _ => is_borne(report).then_some("pull_off_pressure"),
     }
 }

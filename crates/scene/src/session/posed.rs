@@ -3,7 +3,7 @@
 use std::mem;
 use std::sync::Arc;
 
-use asperity::accuracy::{Accuracy, Plan, Quantity, Untold};
+use asperity::accuracy::{Accuracy, NoEstimate, Plan, Quantity};
 use asperity::solver::Iteration;
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::{
@@ -258,7 +258,7 @@ impl<T: Scalar> Session<T> {
             let found = wanted.pull_off_observed(&mut self.solver, &surface, elastic, law, &asked, observe)?;
             let last = self.found(found.found.solution.clone(), clock)?;
             let pulled_off = PulledOff::of(asked, &found.found, &last.part()?.report, Ok(&found), goal);
-            if let Err(Untold::FewNodes { nodes, needed, bytes }) = found.error {
+            if let Err(NoEstimate::FewNodes { nodes, needed, bytes }) = found.error {
                 let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
                 self.warnings.add_of_input(vec![self.facts.units.told(&few)])?;
             }
