@@ -204,8 +204,10 @@ pub enum Update {
 }
 
 /// The test of a constraint of your own: whether its springs are each other's derivatives, and resist more the smaller
-/// the gap, at seven of the nodes below `nodes` at most, and at gaps between −`depth` and `depth`, as
-/// [`check_law`](crate::adhesion::check_law) does.
+/// the gap.
+///
+/// The nodes are seven at most below `nodes`, and the gaps lie between −`depth` and `depth`, as with
+/// [`check_law`](crate::adhesion::check_law).
 ///
 /// # Errors
 /// [`Error::Contract`] with the function that is not finite, or not the derivative of the one before it, and the gap;

@@ -8,8 +8,9 @@ use crate::field::all_finite;
 use crate::real::Real;
 use crate::solver::Solution;
 
-/// The distribution of the pressure over the surface: a histogram, as a probability density, of fields of the whole
-/// surface ([`Grid::whole`](crate::Grid::whole) puts shared ones together).
+/// The distribution of the pressure over the surface: a histogram, as a probability density.
+///
+/// It is found of the fields of the whole surface ([`Grid::whole`](crate::Grid::whole) puts shared ones together).
 ///
 /// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is its
 /// share of the nodes, without absent ones, divided by its width, so Σ density · pressure · width is about the mean
@@ -126,8 +127,10 @@ const SLACK: f64 = 1.0;
 const MOST: usize = 1_000_000;
 
 /// The range of values without spikes and scars: from the least to the greatest value that is no farther from the inner
-/// 98 % than the inner 98 % are wide. All values count where the inner values are equal, and below 100 values; values
-/// that are not finite are left out. None without values.
+/// 98 % than the inner 98 % are wide.
+///
+/// All values count where the inner values are equal, and below 100 values; values that are not finite are left out.
+/// None without values.
 ///
 /// ```
 /// use asperity::contact::bulk_range;

@@ -72,8 +72,10 @@ pub struct Iteration {
     pub control: Control,
 }
 
-/// The account of a solve: its problem in numbers and names, its cost, and its outcome. Energies are per area; all
-/// numbers are in the units of the input. With the feature `serde` it is data; JSON has only finite numbers.
+/// The account of a solve: its problem in numbers and names, its cost, and its outcome.
+///
+/// Energies are per area; all numbers are in the units of the input. With the feature `serde` it is data; JSON has only
+/// finite numbers.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -81,7 +81,9 @@ pub(super) fn by_lines(
 }
 
 /// Heights and their mirror images along both axes, 2Nx × 2Ny nodes: row Nx + i is a copy of row Nx − 1 − i, and columns
-/// likewise. A single node along a side is already its own image.
+/// likewise.
+///
+/// A single node along a side is already its own image.
 pub fn mirror(heights: &Array2<f64>) -> Array2<f64> {
     let (nx, ny) = heights.dim();
     let (mx, my) = (if nx == 1 { 1 } else { 2 * nx }, if ny == 1 { 1 } else { 2 * ny });

@@ -5,7 +5,9 @@ use std::ops::Range;
 use ndarray::{ArrayView2, Axis, Zip};
 
 /// The root mean square of (h(x + Δx) − h(x))/Δx, and likewise along y, over the sides that have neighbours of finite
-/// height; NaN if neither has. A `periodic` surface continues from the last node of a side to the first.
+/// height; NaN if neither has.
+///
+/// A `periodic` surface continues from the last node of a side to the first.
 pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bool) -> f64 {
     let along = |axis: Axis, spacing: f64| {
         let count = heights.len_of(axis);
