@@ -7,7 +7,7 @@ use asperity::{Amplitude, Grid, SelfAffine, Status};
 use asperity_maps::Topography;
 use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map};
-use asperity_scene::{Kind, Map as HeightMap, Maps, keys};
+use asperity_scene::{Kind, Map as HeightMap, Maps, Solved, keys};
 use serde_json::json;
 
 use crate::called;
@@ -17,6 +17,7 @@ use crate::options::ProblemOptions;
 use crate::outcome::Outcome;
 use crate::pictures::{self, FormatKeys, PaperOptions};
 use crate::printing::{Printing, name, on_terminal};
+use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::results::Results;
 use crate::scene::{self, SceneFile};
@@ -77,20 +78,9 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let heights = surface.heights().clone();
     let mut map = Topography::from(surface);
     map.unit = units.length.clone();
-    let solved = |name, scene: &SceneFile| -> Outcome<_> {
-        let ProblemOptions { case, files } = ProblemOptions::of(&scene.given)?;
-        let map = HeightMap::whole(named(&files.heights), map.clone());
-        let posed = case.on(Maps::of(map), count(), processes)?;
-        let mut progress = Progress::new(name, case.scene().tolerance(), grid.nodes(), printing.without_bars());
-        let session = Strictness::default().session::<f64>(posed, processes)?;
-        let mut session = session.with_slopes()?.for_one_solve();
-        let asked = case.asked(1.0, false)?;
-        let mut solved = session.solve(&asked, None, &mut progress.on_grids())?;
-        solved.look()?;
-        Ok((solved.found.solution, solved.account))
-    };
-    let (bare, without) = solved("without adhesion", &bare)?;
-    let (sticky, with) = solved("with adhesion", &sticky)?;
+    let solved = |name, scene: &SceneFile| solved((name, scene), map.clone(), &printing, processes);
+    let Solved { found: bare, account: without } = solved("without adhesion", &bare)?;
+    let Solved { found: sticky, account: with } = solved("with adhesion", &sticky)?;
 
     results.write(results.folder()?, |folder| {
         let map = Map {
@@ -103,7 +93,7 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
         };
         map.draw(paper)?.write(folder.path(&heights_map))?;
         write_npy(folder.path("heights.npy"), &heights)?;
-        for (k, solution) in [&bare, &sticky].into_iter().enumerate() {
+        for (k, solution) in [&bare.solution, &sticky.solution].into_iter().enumerate() {
             let [contact, pressure] = ["Contact", "Pressure"].map(|what| format!("{what} {}", CASES[k].0));
             let regions = solution.regions().mapv(f64::from);
             pictures::draw_contact(grid, &contact, &units, &regions, None, paper)?.write(folder.path(&contacts[k]))?;
@@ -126,6 +116,25 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     printing.report(|| json!({ "command": "demo", "without_adhesion": without, "with_adhesion": with }));
     CASES.iter().zip([&without, &with]).for_each(|((name, _), account)| warn(name, account));
     Ok([without, with].iter().all(|account| account.status == Status::Converged))
+}
+
+/// A case on a map, with its name.
+fn solved(
+    (name, scene): (&str, &SceneFile),
+    map: Topography,
+    printing: &Printing,
+    processes: &Processes,
+) -> Outcome<Solved<f64>> {
+    let ProblemOptions { case, files } = ProblemOptions::of(&scene.given)?;
+    let nodes = map.heights.len();
+    let map = HeightMap::whole(named(&files.heights), map);
+    let posed = case.on(Maps::of(map), count(), processes)?;
+    let mut progress = Progress::new(name, case.scene().tolerance(), nodes, printing.without_bars());
+    let session = Strictness::default().session::<f64>(posed, processes)?;
+    let mut session = session.with_slopes()?.for_one_solve();
+    let mut solved = session.solve(&case.asked(1.0, false)?, None, &mut progress.on_grids())?;
+    solved.look()?;
+    Ok(solved)
 }
 
 /// The arguments of `asperity solve` for a case, with the heights in `folder`.

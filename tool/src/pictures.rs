@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use asperity::contact::Clusters;
 use asperity::{Grid, Real, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Paper, Picture, Style};
-use asperity_scene::legs::{abscissa, legs, logarithmic, value};
+use asperity_scene::legs::{Leg, abscissa, legs, logarithmic, value};
 use asperity_scene::theories::{Curve, Theories};
 use asperity_scene::{Account, Kind, choice, key, keys};
 use ndarray::{Array2, ArrayView2};
@@ -223,20 +223,7 @@ pub fn chart(
     let (mut colours, mut dashes) = (Vec::new(), Vec::new());
     let legs = legs(rows, x, |column, value| columns.number(column, value));
     for (leg, (name, y)) in legs.iter().flat_map(|leg| ys.iter().map(move |y| (leg, y))) {
-        let mut points: Vec<(f64, f64)> = Vec::new();
-        for part in &leg.parts {
-            if !points.is_empty() {
-                points.push((f64::NAN, f64::NAN));
-            }
-            for row in part {
-                let point = (columns.value(row, x), columns.value(row, y));
-                if let (Some(&before), true) = (points.last(), value(row, "energy_drop") > 0.0) {
-                    jumps.push([before, point]);
-                    points.push((f64::NAN, f64::NAN));
-                }
-                points.push(point);
-            }
-        }
+        let points = points_of(leg, |row| (columns.value(row, x), columns.value(row, y)), &mut jumps);
         let words: Vec<_> = [*name, &leg.colour].into_iter().filter(|word| !word.is_empty()).collect();
         let (colour, dashes) = (place(&mut colours, words.join(", ")), place(&mut dashes, leg.dash.clone()));
         curves.push(("", points, Style { colour: Some(colour), dashes }));
@@ -270,6 +257,26 @@ pub fn chart(
         ..Chart::default()
     };
     chart.draw(paper)
+}
+
+/// The points of a leg, with gaps between its parts and where the state jumps; the jumps are added to others.
+fn points_of(leg: &Leg<'_>, point: impl Fn(&Value) -> (f64, f64), jumps: &mut Vec<[(f64, f64); 2]>) -> Vec<(f64, f64)> {
+    const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for part in &leg.parts {
+        if !points.is_empty() {
+            points.push(GAP);
+        }
+        for row in part {
+            let point = point(row);
+            if let (Some(&before), true) = (points.last(), value(row, "energy_drop") > 0.0) {
+                jumps.push([before, point]);
+                points.push(GAP);
+            }
+            points.push(point);
+        }
+    }
+    points
 }
 
 /// The place of a name in a list, to which it is added if it is new.

@@ -148,18 +148,22 @@ fn compared<T: Scalar>(contact: &Contact<'_>, all: &[Compared]) -> asperity::Res
 
 /// The contacts with a solution that is known: in f64 and in f32, those on a line in f64.
 fn known() -> Outcome<Vec<Check>> {
-    let pressure: Found = |report, _| report.mean_pressure;
-    let radius: Found = |report, _| (report.contact_fraction / PI).sqrt();
-    let half_width: Found = |report, _| 0.5 * report.contact_fraction;
     let mut checks = Vec::new();
     let mut check = |contact: Contact<'_>, all: &[Compared]| -> Outcome<()> {
         checks.extend(compared::<f64>(&contact, all)?);
         checks.extend(if contact.0.grid().is_line() { Vec::new() } else { compared::<f32>(&contact, all)? });
         Ok(())
     };
+    spheres(&mut check)?;
+    waves(&mut check)?;
+    Ok(checks)
+}
+
+fn spheres(mut check: impl FnMut(Contact<'_>, &[Compared]) -> Outcome<()>) -> Outcome<()> {
+    let pressure: Found = |report, _| report.mean_pressure;
+    let radius: Found = |report, _| (report.contact_fraction / PI).sqrt();
     let (grid, spacing) = (Grid::square(NODES, 1.0)?, 1.0 / NODES as f64);
     let sphere = &Surface::paraboloid(grid, RADIUS)?;
-    let ridges = |nodes: usize| Surface::wave(Grid::line(nodes, 1.0)?, AMPLITUDE, 1);
 
     // a sphere among its periodic images; the edge of the contact falls between nodes: second order in the spacing
     let theory = Periodic::new(Hertz::new(RADIUS, 1.0)?, 1.0)?.at_mean_gap(0.037, sphere.mean())?;
@@ -180,7 +184,14 @@ fn known() -> Outcome<Vec<Check>> {
         ("sphere of Maugis and Dugdale, mean pressure", pressure, p, 0.1 * edge, 1.0),
         ("sphere of Maugis and Dugdale, contact radius", radius, a, spacing, 0.0),
     ];
-    check((sphere, Arc::new(MaugisDugdale::new(work, range)?), Control::MeanGap(0.0429)), &all)?;
+    check((sphere, Arc::new(MaugisDugdale::new(work, range)?), Control::MeanGap(0.0429)), &all)
+}
+
+fn waves(mut check: impl FnMut(Contact<'_>, &[Compared]) -> Outcome<()>) -> Outcome<()> {
+    let pressure: Found = |report, _| report.mean_pressure;
+    let half_width: Found = |report, _| 0.5 * report.contact_fraction;
+    let (grid, ridges) =
+        (Grid::square(NODES, 1.0)?, |nodes: usize| Surface::wave(Grid::line(nodes, 1.0)?, AMPLITUDE, 1));
 
     // a wave in both directions: its pressure is one Fourier mode, exact on any grid
     let closing = closing_pressure_2d(AMPLITUDE, 1.0, 1.0)?;
@@ -206,8 +217,7 @@ fn known() -> Outcome<Vec<Check>> {
         ("adhesive wave of Johnson, mean pressure", pressure, theory.mean_pressure(), error, 0.0),
         ("adhesive wave of Johnson, half-width of the contact", half_width, 0.25, 6.0 * range, 0.0),
     ];
-    check((&ridges(16384)?, Arc::new(Exponential::new(work, range)?), Control::MeanGap(theory.mean_gap())), &all)?;
-    Ok(checks)
+    check((&ridges(16384)?, Arc::new(Exponential::new(work, range)?), Control::MeanGap(theory.mean_gap())), &all)
 }
 
 /// A rough contact with adhesion, which is the same on one thread and on all of them, and in f32 as in f64.

@@ -3,14 +3,17 @@
 mod beside;
 mod written;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::Status;
-use asperity_scene::{Boundary, Kind, Part, Posed, Precision, Solved, Word, choice, gap_to_write, keys, write_fields};
+use asperity::{Solution, Status};
+use asperity_maps::io::OutputFolder;
+use asperity_scene::{
+    Account, Boundary, Kind, Part, Posed, Precision, Solved, Word, choice, gap_to_write, keys, write_fields,
+};
 use serde_json::json;
 
-use self::beside::{BESIDE, fields_beside};
+use self::beside::{BESIDE, Named, fields_beside};
 use crate::command::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
@@ -115,6 +118,13 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     }
 }
 
+/// Whether all goals beside the convergence are reached: of an accuracy, of a search and of a leakage.
+fn has_reached(account: &Account) -> bool {
+    account.accuracy.as_ref().is_none_or(|reached| reached.reached)
+        && account.search.as_ref().is_none_or(|search| search.reached)
+        && account.transmissivity.is_none_or(|found| found.reached())
+}
+
 impl Options {
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
@@ -192,22 +202,12 @@ impl Job<'_> {
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
         let mut beside = fields_beside(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
-        let solution = &found.solution;
 
         let mut told = Vec::new();
         if let Some(results) = &self.results {
             let folder = processes.agree(processes.is_first().then(|| results.folder()).transpose())?;
             if options.writes(Format::Npy) {
-                let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
-                let gap = gap_to_write(shown);
-                let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
-                let (folder, out) = (folder.as_ref(), results.out);
-                let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
-                write_fields(processes, folder, out, part, &named)?;
-                for (name, field) in &beside {
-                    let field = self.part.of_field(field.clone())?;
-                    write_fields(processes, folder, out, part, &[((*name).to_owned(), &field)])?;
-                }
+                self.write_arrays((folder.as_ref(), results.out), &found.solution, &beside)?;
             }
             for (_, field) in beside.iter_mut().filter(|_| fits) {
                 *field = grid.whole(std::mem::take(field)).into_owned();
@@ -227,10 +227,26 @@ impl Job<'_> {
         told.iter().for_each(|line| printing.say(line));
         printing.report(|| json!(account));
         warn("", &account);
-        let reached = account.accuracy.as_ref().is_none_or(|reached| reached.reached)
-            && account.search.as_ref().is_none_or(|search| search.reached)
-            && account.transmissivity.is_none_or(|found| found.reached());
-        Ok(account.status == Status::Converged && reached)
+        Ok(account.status == Status::Converged && has_reached(&account))
+    }
+
+    /// Writes the fields of a solution, and fields beside them, as arrays; each process the rows that it holds.
+    fn write_arrays<T: Scalar>(
+        &self,
+        (folder, out): (Option<&OutputFolder>, &Path),
+        solution: &Solution<T>,
+        beside: &[Named],
+    ) -> Outcome<()> {
+        let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
+        let gap = gap_to_write(shown);
+        let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
+        let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
+        write_fields(self.processes, folder, out, part, &named)?;
+        for (name, field) in beside {
+            let field = self.part.of_field(field.clone())?;
+            write_fields(self.processes, folder, out, part, &[((*name).to_owned(), &field)])?;
+        }
+        Ok(())
     }
 
     /// Leaves out the pictures, and refuses files, for which one process would have to take the whole of the fields.

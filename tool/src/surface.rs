@@ -8,7 +8,7 @@ use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::{Body, BodyForm, Given, Kind, Roughness, RoughnessKeys, keys, statistics};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::command::Call;
 use crate::outcome::Outcome;
@@ -116,6 +116,22 @@ impl Described {
         map.seed = self.rough.map(|rough| rough.seed);
         Ok((surface, map))
     }
+
+    /// The figures of the description, with the number of nodes without a height.
+    fn figures(&self, absent: usize) -> Value {
+        json!({
+            "form": self.body.form.to_string(),
+            "absent_nodes": absent,
+            "hurst": self.rough.map(|rough| rough.hurst),
+            "k_l": self.rough.map(|rough| rough.k_l),
+            "k_r": self.rough.map(|rough| rough.k_r),
+            "k_s": self.rough.map(|rough| rough.k_s),
+            "random_phase": self.rough.map(|rough| rough.random_phase),
+            "seed": self.rough.map(|rough| rough.seed),
+            "fourier": self.fourier.as_ref().map(|(path, _)| path.to_string_lossy()),
+            "version": env!("CARGO_PKG_VERSION"),
+        })
+    }
 }
 
 /// Runs the command; always successful if it ends.
@@ -123,7 +139,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let (options, printing) = (&scene.keys::<Options>(), scene.keys::<Printing>());
     let described = described(&scene.given)?;
     let &Described { grid, rough, unit, .. } = &described;
-    let (form, fourier) = (described.body.form, described.fourier.as_ref().map(|(path, _)| path.as_path()));
+    let fourier = described.fourier.as_ref().map(|(path, _)| path.as_path());
     for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
         check_apart(written, fourier)?;
     }
@@ -168,19 +184,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
                 "length_unit": unit,
             }),
         };
-        let made = json!({
-            "form": form.to_string(),
-            "absent_nodes": absent,
-            "hurst": rough.map(|rough| rough.hurst),
-            "k_l": rough.map(|rough| rough.k_l),
-            "k_r": rough.map(|rough| rough.k_r),
-            "k_s": rough.map(|rough| rough.k_s),
-            "random_phase": rough.map(|rough| rough.random_phase),
-            "seed": rough.map(|rough| rough.seed),
-            "fourier": fourier.map(|path| path.to_string_lossy()),
-            "version": env!("CARGO_PKG_VERSION"),
-        });
-        report::report("surface", figures, &made)
+        report::report("surface", figures, &described.figures(absent))
     });
     Ok(true)
 }

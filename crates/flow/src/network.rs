@@ -63,6 +63,14 @@ pub(crate) struct Network {
     pub unit: f64,
 }
 
+/// Whether a node is one of the checkerboard.
+fn is_hub(gap: &Gap<'_>, node: usize) -> bool {
+    let ((nx, ny), (i, j)) = (gap.grid().shape(), gap.place(node));
+    // where opposite sides meet, an odd number of nodes ends the checkerboard
+    let ends = |k, n: usize| gap.is_periodic() && !n.is_multiple_of(2) && k + 1 == n;
+    (i + j).is_multiple_of(2) && !ends(i, nx) && !ends(j, ny)
+}
+
 impl Network {
     /// The network of a gap along an axis.
     ///
@@ -76,14 +84,8 @@ impl Network {
             let (name, requirement) = ("least open gap over the greatest", "at least 1e-100: set lesser gaps to zero");
             return Err(Error::Value { name, value: least / greatest, requirement });
         }
-        let (nx, ny) = gap.grid().shape();
-        let is_hub = |node: usize| {
-            let (i, j) = gap.place(node);
-            // where opposite sides meet, an odd number of nodes ends the checkerboard
-            let ends = |k, n: usize| gap.is_periodic() && !n.is_multiple_of(2) && k + 1 == n;
-            (i + j).is_multiple_of(2) && !ends(i, nx) && !ends(j, ny)
-        };
-        let rims: Vec<u32> = (0..all).filter(|node| carries(*node) && !is_hub(*node)).map(|node| node as u32).collect();
+        let rims: Vec<u32> =
+            (0..all).filter(|node| carries(*node) && !is_hub(gap, *node)).map(|node| node as u32).collect();
         let mut rim = vec![NONE; all];
         rims.iter().enumerate().for_each(|(k, node)| rim[*node as usize] = k as u32);
 

@@ -5,6 +5,7 @@ use asperity_maps::io::read_field;
 use asperity_plot::{Chart, Colouring, Distribution, Map, Paper};
 use asperity_scene::{Account, Adhesion, Boundary, Inputs, key};
 use ndarray::Zip;
+use serde_json::Value;
 
 use super::{FINE, Page};
 use crate::outcome::Outcome;
@@ -24,6 +25,14 @@ pub fn resolution(nodes: u64) -> Paper {
     (0.288 * nodes as f64).clamp(FINE, FINEST).into()
 }
 
+/// The traction from which on attraction is shown. The traction of the law is what the contact pressure has more than the
+/// elastic one.
+fn noticeable(report: &Value) -> f64 {
+    let number = |key: &str| report[key].as_f64();
+    let law = number(key!(Adhesion, work_of_adhesion)).zip(number(key!(Adhesion, range)));
+    law.map_or(f64::INFINITY, |(w, range)| NOTICEABLE * w / range)
+}
+
 /// Puts the maps of a solve on a page, with histograms of gap and pressure.
 pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapColours) -> Outcome<()> {
     let Solved { folder, report } = solved;
@@ -38,12 +47,7 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
     let (length, pressure_unit) = (units.length.as_deref(), units.pressure.as_deref());
 
     let adhesive = report[key!(Adhesion, law)].as_str() != Some("none");
-    // the traction of the law is what the contact pressure has more than the elastic one
-    let least = report[key!(Adhesion, work_of_adhesion)]
-        .as_f64()
-        .zip(report[key!(Adhesion, range)].as_f64())
-        .map(|(w, range)| NOTICEABLE * w / range);
-    let least = least.filter(|_| adhesive).unwrap_or(f64::INFINITY);
+    let least = if adhesive { noticeable(report) } else { f64::INFINITY };
     let mut regions = Zip::from(&gap).and(&pressure).and(&contact_pressure).map_collect(|&gap, &pressure, &contact| {
         match contact - pressure {
             _ if contact > 0.0 || gap <= 0.0 => 1.0,

@@ -56,17 +56,7 @@ pub fn page(folder: &Path, colours: &MapColours, is_si: bool) -> Outcome<String>
     let status = report[key!(Account, status)].as_str().unwrap_or_default();
     let mut page = Page::of_folder(folder, report, status);
 
-    let mut warnings: Vec<String> = Vec::new();
-    if status != "converged" {
-        warnings.push(format!("The solve has not converged, it is {status}: the answer may be wrong."));
-    }
-    if report[key!(PulledOff, reached)] == false {
-        warnings.push(
-            "The pull-off is not found to its tolerance: the surfaces may bear more than is found here.".to_owned(),
-        );
-    }
-    let said: Vec<Told> = serde_json::from_value(report[key!(Account, warnings)].clone()).unwrap_or_default();
-    warnings.extend(said.iter().map(Told::to_string));
+    let mut warnings = warnings_of(report);
     if is_si && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
@@ -86,7 +76,24 @@ pub fn page(folder: &Path, colours: &MapColours, is_si: bool) -> Outcome<String>
     page.text.push_str("</div>\n");
     page.pictures("Maps and curves", &maps);
     page.heading("Surface and settings");
-    let number = number_of(report, &units);
+    put_inputs(&mut page, report, &units);
+    Ok(page.finish(scene.as_deref()))
+}
+
+/// What a reader of a report has to know first.
+fn warnings_of(report: &Value) -> Vec<String> {
+    let status = report[key!(Account, status)].as_str().unwrap_or_default();
+    let unconverged = format!("The solve has not converged, it is {status}: the answer may be wrong.");
+    let open = "The pull-off is not found to its tolerance: the surfaces may bear more than is found here.".to_owned();
+    let said: Vec<Told> = serde_json::from_value(report[key!(Account, warnings)].clone()).unwrap_or_default();
+    let unconverged = (status != "converged").then_some(unconverged);
+    let open = (report[key!(PulledOff, reached)] == false).then_some(open);
+    unconverged.into_iter().chain(open).chain(said.iter().map(Told::to_string)).collect()
+}
+
+/// Puts the inputs of a solve on a page, and the levels of nested grids.
+fn put_inputs(page: &mut Page, report: &Value, units: &Units) {
+    let number = number_of(report, units);
     let (levels, others): (Vec<_>, Vec<_>) = report
         .as_object()
         .into_iter()
@@ -107,7 +114,6 @@ pub fn page(folder: &Path, colours: &MapColours, is_si: bool) -> Outcome<String>
         let levels: Vec<_> = levels.as_array().into_iter().flatten().filter_map(level).collect();
         page.figures(Some("Levels of nested grids"), &levels);
     }
-    Ok(page.finish(scene.as_deref()))
 }
 
 /// The page of a folder with these contents, and with its report.

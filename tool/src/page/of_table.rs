@@ -49,8 +49,7 @@ pub fn page(table: &Path) -> Outcome<String> {
         _ => "sweep",
     };
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
-    let bad = |row: &Value| row[key!(Account, status)] != "converged";
-    let unconverged = rows.iter().filter(|row| bad(row)).count();
+    let unconverged = rows.iter().filter(|row| is_bad(row)).count();
     let count = rows.len();
     let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
     let said = warnings::read_beside(table)?.into_iter().map(|told| told.message);
@@ -67,6 +66,16 @@ pub fn page(table: &Path) -> Outcome<String> {
     }
     page.pictures("Curves", &curves);
     page.heading("Rows");
+    put_rows(&mut page, (&header, &columns, &rows), &units);
+    Ok(page.finish(scene.as_deref()))
+}
+
+fn is_bad(row: &Value) -> bool {
+    row[key!(Account, status)] != "converged"
+}
+
+/// Puts the rows of a table on a page.
+fn put_rows(page: &mut Page, (header, columns, rows): (&[String], &[String], &[Value]), units: &Units) {
     // what no row has is left out, what is the same in all is folded, and the others stand as one asks for them
     let control = rows[0]["control"].as_str().unwrap_or_default();
     let held = control.replace('-', "_");
@@ -78,10 +87,10 @@ pub fn page(table: &Path) -> Outcome<String> {
         }),
         _ => rows.iter().any(|row| !row[column].is_null()),
     };
-    let filled = header.iter().zip(&columns).filter(|(_, column)| is_there(column));
-    let varied = varied(&rows);
+    let filled = header.iter().zip(columns).filter(|(_, column)| is_there(column));
+    let varied = varied(rows);
     let is_setting = |(_, column): &(&String, &String)| {
-        !varied.contains(&column.as_str()) && same(column) && (count > 1 || place(column) == usize::MAX)
+        !varied.contains(&column.as_str()) && same(column) && (rows.len() > 1 || place(column) == usize::MAX)
     };
     let (settings, mut kept): (Vec<_>, Vec<_>) = filled.partition(is_setting);
     let is_first = |column: &str| column == CASE || varied.contains(&column);
@@ -90,19 +99,18 @@ pub fn page(table: &Path) -> Outcome<String> {
         kept.iter().map(|(_, column)| format!("<{tag}>{}</{tag}>", escaped(&text(column)))).collect()
     };
     let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{}</tr>", cells("th", &Columns::label));
-    let of = Columns::new(&rows, &units);
+    let of = Columns::new(rows, units);
     let text = |row: &Value, column: &str| {
         let number = |name: &str, found| of.number(name, if name == column { of.value(row, name) } else { found });
         shown(column, &row[column], &number).unwrap_or_default()
     };
-    for row in &rows {
+    for row in rows {
         let cells = cells("td", &|column| text(row, column));
-        let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if bad(row) { " class=\"bad\"" } else { "" });
+        let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if is_bad(row) { " class=\"bad\"" } else { "" });
     }
     page.text.push_str("</table>\n</div>\n");
     let same = |(_, column): (&String, &String)| (column.clone(), text(&rows[0], column));
     page.figures(Some("The same in all rows"), &settings.into_iter().map(same).collect::<Vec<_>>());
-    Ok(page.finish(scene.as_deref()))
 }
 
 /// How far a table is that lacks rows of the loads in its scene.

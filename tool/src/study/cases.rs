@@ -57,6 +57,17 @@ pub struct Case {
 /// The values that options take together, by their keys.
 type Choice = Vec<(String, Value)>;
 
+/// The keys of lists, each once, in the order in which they are given.
+fn keys_of(lists: &[Vec<Choice>]) -> Vec<&str> {
+    let mut keys: Vec<&str> = Vec::new();
+    for (key, _) in lists.iter().flatten().flatten() {
+        if !keys.contains(&key.as_str()) {
+            keys.push(key);
+        }
+    }
+    keys
+}
+
 impl Study {
     /// Reads a study; `tool` has the words of mistakes, and `out` replaces the file of the table.
     pub fn read(tool: &Parser, path: &Path, out: Option<&Path>) -> Outcome<Self> {
@@ -93,12 +104,7 @@ impl Study {
         let lists = vary?.into_iter().flatten().map(|(key, value)| choices(key, value));
         let lists = lists.collect::<Result<Vec<_>, _>>().map_err(refuse)?;
 
-        let mut keys: Vec<&str> = Vec::new();
-        for (key, _) in lists.iter().flatten().flatten() {
-            if !keys.contains(&key.as_str()) {
-                keys.push(key);
-            }
-        }
+        let keys = keys_of(&lists);
         let mut all = fixed.iter().map(|(key, _)| key.as_str()).chain(keys.iter().copied());
         all.try_for_each(|key| commands.check(key)).map_err(refuse)?;
         let count = lists.iter().try_fold(1_usize, |count, list| count.checked_mul(list.len()));

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::fs::{self, File, TryLockError};
 use std::io;
+use std::iter;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -58,6 +59,34 @@ struct Progress {
     refused: HashMap<String, (usize, usize)>,
 }
 
+impl Progress {
+    /// Notes that a case was refused, and says the reason with the first such case.
+    fn refuse(&mut self, number: usize, name: &str, reason: String) {
+        let (_, count) = self.refused.entry(reason.clone()).or_insert((number, 0));
+        *count += 1;
+        if *count == 1 {
+            complain("warning", &format!("{name} is refused: {reason}"));
+        }
+    }
+
+    /// How many of the cases were refused, if any.
+    fn refusal(&self, of: usize) -> Outcome<()> {
+        let mut reasons: Vec<_> = self.refused.values().copied().collect();
+        let refused: usize = reasons.iter().map(|(_, count)| count).sum();
+        if refused == 0 {
+            return Ok(());
+        }
+        reasons.retain(|(_, count)| *count > 1);
+        reasons.sort_unstable();
+        let alike = |&(first, count): &(usize, usize)| {
+            let alike = if count == refused { "all".to_owned() } else { count.to_string() };
+            format!(", {alike} as case {}", first + 1)
+        };
+        let alike: String = reasons.iter().map(alike).collect();
+        Err(format!("{refused} of {of} cases were refused{alike}: mend the study, and run it again").into())
+    }
+}
+
 /// Solves the cases with these numbers that are not done, some at a time.
 ///
 /// # Errors
@@ -107,42 +136,18 @@ pub fn solve(
                 let width = count.to_string().len();
                 printing.say(&format!("{:>width$}/{count}  {name}", progress.done));
             }
-            Err(error) => {
-                let (_, count) = progress.refused.entry(error.clone()).or_insert((number, 0));
-                *count += 1;
-                if *count == 1 {
-                    complain("warning", &format!("{name} is refused: {error}"));
-                }
-            }
+            Err(error) => progress.refuse(number, &name, error),
         }
     };
     let work = || {
-        let next = || progress().left.pop_front();
-        while let Some(number) = next() {
-            solve(number, false);
-        }
-        let next = || progress().elsewhere.pop();
-        while let Some(number) = next() {
-            solve(number, true);
-        }
+        iter::from_fn(|| progress().left.pop_front()).for_each(|number| solve(number, false));
+        iter::from_fn(|| progress().elsewhere.pop()).for_each(|number| solve(number, true));
     };
     thread::scope(|scope| {
         let begun: Vec<_> = (0..jobs).map(|_| scope.spawn(|| threads::on(threads, work))).collect();
         begun.into_iter().try_for_each(|job| job.join().unwrap_or_else(|panic| resume_unwind(panic)))
     })?;
-    let mut reasons: Vec<_> = progress().refused.values().copied().collect();
-    let refused: usize = reasons.iter().map(|(_, count)| count).sum();
-    if refused == 0 {
-        return Ok(());
-    }
-    reasons.retain(|(_, count)| *count > 1);
-    reasons.sort_unstable();
-    let alike = |&(first, count): &(usize, usize)| {
-        let alike = if count == refused { "all".to_owned() } else { count.to_string() };
-        format!(", {alike} as case {}", first + 1)
-    };
-    let alike: String = reasons.iter().map(alike).collect();
-    Err(format!("{refused} of {of} cases were refused{alike}: mend the study, and run it again").into())
+    progress().refusal(of)
 }
 
 /// Solves a case that no other run has solved by then, and tells its warnings; false if another run is solving it, unless

@@ -223,16 +223,7 @@ impl Heading {
                 }
                 None if pair.is_like_length() => sizes.unread.push(pair.text()),
                 None => {}
-                Some((Some(Kind::Unit), axes)) => {
-                    let is_default = axes.is_empty();
-                    // one unit, or units of x, y and z
-                    let each = units(&pair.value).filter(|_| is_default);
-                    let each = each.unwrap_or_else(|| [(); 3].map(|()| bare(&pair.value).to_owned()));
-                    for &axis in if is_default { &[0, 1, 2] } else { axes } {
-                        let unit = sizes.units[axis].take().filter(|_| is_default);
-                        sizes.units[axis] = unit.or_else(|| Some(each[axis].clone()));
-                    }
-                }
+                Some((Some(Kind::Unit), axes)) => sizes.take_units(pair, axes),
                 Some((Some(Kind::Missing), _)) => sizes.missing = found.map(|(code, _)| code),
                 Some((Some(Kind::Factor), _)) => {
                     sizes.factor = found.map(|(factor, _)| factor);
@@ -261,22 +252,7 @@ impl Heading {
         if let Some(columns) = &self.columns {
             sizes.units = ["x", "y", "z"].map(|axis| columns.unit(axis));
         }
-        let default = if is_said("x-length", "") { "nm" } else { "" };
-        let [x, y] = [0, 1].map(|axis| {
-            let (length, unit) = lengths[axis].clone()?;
-            let told = sizes.units[axis].as_ref().or(sizes.units[0].as_ref());
-            Some((length, if unit.is_empty() { told.map_or(default, |told| told).to_owned() } else { unit }))
-        });
-        match (x, y) {
-            (Some((lx, x)), Some((ly, y))) => {
-                let ratio = if x == y { Some(1.0) } else { per_metre(&x).zip(per_metre(&y)).map(|(x, y)| x / y) };
-                let Some(ratio) = ratio else {
-                    return refuse(format!("has sides in {} and {}, expected one unit", quoted(&x), quoted(&y)));
-                };
-                sizes.sides = Some(((lx, ratio * ly), x));
-            }
-            (x, y) => sizes.unread.extend(x.or(y).map(|(length, unit)| format!("{length} {unit}"))),
-        }
+        sizes.take_sides(&lengths, if is_said("x-length", "") { "nm" } else { "" })?;
         Ok(sizes)
     }
 }
@@ -301,6 +277,37 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
+    /// Takes a unit along axes, or a default for all without one: one unit, or units of x, y and z.
+    fn take_units(&mut self, pair: &Pair, axes: &[usize]) {
+        let is_default = axes.is_empty();
+        let each = units(&pair.value).filter(|_| is_default);
+        let each = each.unwrap_or_else(|| [(); 3].map(|()| bare(&pair.value).to_owned()));
+        for &axis in if is_default { &[0, 1, 2] } else { axes } {
+            let unit = self.units[axis].take().filter(|_| is_default);
+            self.units[axis] = unit.or_else(|| Some(each[axis].clone()));
+        }
+    }
+
+    /// Takes lengths along x and y as sides in one unit; those without a unit are in the unit of their axis.
+    fn take_sides(&mut self, lengths: &[Option<(f64, String)>; 2], default: &str) -> Parsed<()> {
+        let [x, y] = [0, 1].map(|axis| {
+            let (length, unit) = lengths[axis].clone()?;
+            let told = self.units[axis].as_ref().or(self.units[0].as_ref());
+            Some((length, if unit.is_empty() { told.map_or(default, |told| told).to_owned() } else { unit }))
+        });
+        match (x, y) {
+            (Some((lx, x)), Some((ly, y))) => {
+                let ratio = if x == y { Some(1.0) } else { per_metre(&x).zip(per_metre(&y)).map(|(x, y)| x / y) };
+                let Some(ratio) = ratio else {
+                    return refuse(format!("has sides in {} and {}, expected one unit", quoted(&x), quoted(&y)));
+                };
+                self.sides = Some(((lx, ratio * ly), x));
+            }
+            (x, y) => self.unread.extend(x.or(y).map(|(length, unit)| format!("{length} {unit}"))),
+        }
+        Ok(())
+    }
+
     /// Takes numbers of nodes or lengths along axes, or along both axes if the name has none.
     fn take(
         &mut self,

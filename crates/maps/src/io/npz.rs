@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use ndarray::ArrayView2;
+use ndarray::{Array2, ArrayView2};
 use zip::read::ZipFile;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
@@ -30,26 +30,12 @@ const ARRAYS: [&str; 8] = ["heights", "lengths", "unit", "units", "original", "s
 pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topography> {
     check_counts(&mut reader, size).map_err(unreadable)?;
     let mut archive = ZipArchive::new(reader).map_err(damaged)?;
-    let index = match (archive.len(), archive.index_for_name("heights.npy")) {
-        (1, _) => 0,
-        (_, Some(index)) => index,
-        (count, None) => {
-            if let Some(reason) = by_member(archive.file_names()) {
-                return refuse(reason);
-            }
-            let names = archive.file_names().take(10).map(|name| quoted(array(name)));
-            let names = names.collect::<Vec<_>>().join(", ");
-            return refuse(format!(
-                "holds {count} arrays ({names}), expected one, or one named heights: save the heights alone, as .npy or .npz"
-            ));
-        }
-    };
+    let index = heights_of(&archive)?;
     let mut map = Topography::new(read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?);
     if archive.len() == 1 {
         return Ok(map);
     }
-    if let Some(index) = archive.index_for_name("lengths.npy") {
-        let lengths = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+    if let Some(lengths) = numbers(&mut archive, "lengths.npy", size)? {
         match lengths.as_slice() {
             Some(&[lx, ly]) if is_side(lx) && is_side(ly) => map.lengths = Some((lx, ly)),
             _ => return refuse("has an array lengths that is not two positive numbers: save it as [Lx, Ly]"),
@@ -59,8 +45,7 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
         let unit = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
         map.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
-    if let Some(index) = archive.index_for_name("original.npy") {
-        let nodes = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+    if let Some(nodes) = numbers(&mut archive, "original.npy", size)? {
         let fits = |nodes: f64, of: usize| nodes >= 1.0 && nodes <= of as f64 && nodes.fract() == 0.0;
         map.original = match nodes.as_slice() {
             Some(&[x, y]) if fits(x, map.heights.nrows()) && fits(y, map.heights.ncols()) => {
@@ -77,15 +62,13 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
         let wrong = || format!("has the seed {}, expected a whole number: leave the array out", quoted(&seed));
         map.seed = Some(seed.parse().map_err(|_| wrong())?);
     }
-    if let Some(index) = archive.index_for_name("scars_removed.npy") {
-        let threshold = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+    if let Some(threshold) = numbers(&mut archive, "scars_removed.npy", size)? {
         match threshold.as_slice() {
             Some(&[threshold]) if threshold > 0.0 && threshold.is_finite() => map.scars_removed = Some(threshold),
             _ => return refuse("has an array scars_removed that is not a positive number: leave the array out"),
         }
     }
-    if let Some(index) = archive.index_for_name("periodic.npy") {
-        let periodic = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+    if let Some(periodic) = numbers(&mut archive, "periodic.npy", size)? {
         match periodic.as_slice() {
             Some(&[is @ (0.0 | 1.0)]) => map.periodic = Some(is > 0.0),
             _ => return refuse("has an array periodic that is neither 0 nor 1: leave the array out"),
@@ -94,6 +77,30 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
     let unread = archive.file_names().map(array).filter(|name| !ARRAYS.contains(name));
     map.unread = unread.map(str::to_owned).collect();
     Ok(map)
+}
+
+/// The index of the heights: of the only array, or of the array with this name.
+fn heights_of<R: Read + Seek>(archive: &ZipArchive<R>) -> Parsed<usize> {
+    match (archive.len(), archive.index_for_name("heights.npy")) {
+        (1, _) => Ok(0),
+        (_, Some(index)) => Ok(index),
+        (count, None) => {
+            if let Some(reason) = by_member(archive.file_names()) {
+                return refuse(reason);
+            }
+            let names = archive.file_names().take(10).map(|name| quoted(array(name)));
+            let names = names.collect::<Vec<_>>().join(", ");
+            refuse(format!(
+                "holds {count} arrays ({names}), expected one, or one named heights: save the heights alone, as .npy or .npz"
+            ))
+        }
+    }
+}
+
+/// The numbers of an array, if the archive has it.
+fn numbers<R: Read + Seek>(archive: &mut ZipArchive<R>, name: &str, size: u64) -> Parsed<Option<Array2<f64>>> {
+    let index = archive.index_for_name(name);
+    index.map(|index| read_entry(archive, index, size, |entry, size| read_npy(entry, size))).transpose()
 }
 
 /// The name of an array, from the name of its entry in the archive.

@@ -126,9 +126,40 @@ fn label(name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("I_{name}") }
 }
 
+fn number(row: &Value, name: &str) -> Option<f64> {
+    row[name].as_f64()
+}
+
+/// Closure, mean pressure, and a conductance.
+type State = (f64, f64, Option<f64>);
+
+/// The state without a pressure, on the line between a state under a tension and another one.
+fn unloaded(below: State, above: State) -> State {
+    let share = -below.1 / (above.1 - below.1);
+    let between = |a: f64, b: f64| a + share * (b - a);
+    let conductance = below.2.zip(above.2).map(|(a, b)| between(a, b));
+    (between(below.0, above.0), 0.0, conductance)
+}
+
+/// The refusal of two states between which the pressure or the closure does not grow.
+fn turns(rows: &[Value], two: &[State]) -> String {
+    let full = rows.iter().filter(|row| number(row, CONTACT_FRACTION) == Some(1.0));
+    let mut full: Vec<_> = full.filter_map(|row| number(row, MEAN_PRESSURE)).collect();
+    full.sort_by(f64::total_cmp);
+    if let [least, _, ..] = full[..] {
+        return format!(
+            "the contact is full at {least:e}, and from there on the closure grows no more: leave out the loads beyond it"
+        );
+    }
+    format!(
+        "the pressure is no function of the closure: {:e} at {:e} comes before {:e} at {:e}: give loads that grow, or \
+         loads that fall",
+        two[0].1, two[0].0, two[1].1, two[1].0
+    )
+}
+
 /// The functions that the rows of a table are.
 fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
-    let number = |row: &Value, name: &str| row[name].as_f64();
     let kind = Conductors::COLUMNS.into_iter().find(|kind| rows.iter().any(|row| number(row, kind).is_some()));
     let state = |row: &Value| {
         let at = (number(row, "closure")?, number(row, MEAN_PRESSURE)?);
@@ -139,35 +170,17 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
         states.reverse();
     }
     if let Some(two) = states.windows(2).find(|two| two[1].0 <= two[0].0 || two[1].1 <= two[0].1) {
-        let full = rows.iter().filter(|row| number(row, CONTACT_FRACTION) == Some(1.0));
-        let mut full: Vec<_> = full.filter_map(|row| number(row, MEAN_PRESSURE)).collect();
-        full.sort_by(f64::total_cmp);
-        if let [least, _, ..] = full[..] {
-            return Err(format!(
-                "the contact is full at {least:e}, and from there on the closure grows no more: leave out the loads \
-                 beyond it"
-            ));
-        }
-        return Err(format!(
-            "the pressure is no function of the closure: {:e} at {:e} comes before {:e} at {:e}: give loads that grow, \
-             or loads that fall",
-            two[0].1, two[0].0, two[1].1, two[1].0
-        ));
+        return Err(turns(rows, two));
     }
     let first = states.iter().position(|state| state.1 > 0.0).ok_or("no row has a pressure: give {mean_pressures}")?;
-    let origin = match first.checked_sub(1).map(|before| (states[before], states[first])) {
+    let origin = match first.checked_sub(1) {
         _ if !adhesive => (0.0, 0.0, kind.map(|_| 0.0)),
         None => {
             return Err("with adhesion surfaces touch without a pressure, and no row says where: add 0 to \
                         {mean_pressures}"
                 .to_owned());
         }
-        Some((below, above)) => {
-            let share = -below.1 / (above.1 - below.1);
-            let between = |a: f64, b: f64| a + share * (b - a);
-            let conductance = below.2.zip(above.2).map(|(a, b)| between(a, b));
-            (between(below.0, above.0), 0.0, conductance)
-        }
+        Some(before) => unloaded(states[before], states[first]),
     };
     let states: Vec<_> = std::iter::once(origin).chain(states.split_off(first)).collect();
     let pressure = Function {

@@ -52,29 +52,31 @@ pub fn between(
             second.heights.len()
         ));
     }
-    let shifted = shift != (0.0, 0.0);
-    let told = format!("{{shift}} is {} {}", shift.0, shift.1);
-    let shift = match (boundary, original, second.original) {
-        (Boundary::Free, ..) if shifted => {
-            return Err(format!(
-                "{told}, but with a free boundary the surface ends, and nothing follows it as it moves: move the heights \
-                 within larger maps, or leave out {{boundary}}"
-            ));
-        }
-        (Boundary::Free, ..) | (_, None, None) => shift,
-        (_, Some(_), Some(_)) if shifted => {
-            return Err(format!(
-                "{told}, but when a mirrored map moves, its original leaves its place: make both maps periodic by \
-                 {{prepare:window}}, without mirror images"
-            ));
-        }
-        (_, Some((nx, _)), Some(other)) if Some(other) == original => (nx as f64 * grid.spacing().0, 0.0),
-        _ => {
-            return Err(
-                "{heights} and {against} are not mirrored alike: mirror both by {prepare:mirror}, or none".to_owned()
-            );
-        }
-    };
+    let shift = shift_of((first, original), second.original, shift, boundary)?;
     let second = if missing > 0 { second.surface_with_absent() } else { second.surface() };
     second.and_then(|second| first.against(&second, shift)).map_err(|error| error.to_string())
+}
+
+/// The shift of a second surface against a first one, each with the nodes of its original if it is mirrored.
+fn shift_of(
+    (first, original): (&Surface, Option<(usize, usize)>),
+    other: Option<(usize, usize)>,
+    shift: (f64, f64),
+    boundary: Boundary,
+) -> Result<(f64, f64), String> {
+    let shifted = shift != (0.0, 0.0);
+    let told = format!("{{shift}} is {} {}", shift.0, shift.1);
+    match (boundary, original, other) {
+        (Boundary::Free, ..) if shifted => Err(format!(
+            "{told}, but with a free boundary the surface ends, and nothing follows it as it moves: move the heights \
+                 within larger maps, or leave out {{boundary}}"
+        )),
+        (Boundary::Free, ..) | (_, None, None) => Ok(shift),
+        (_, Some(_), Some(_)) if shifted => Err(format!(
+            "{told}, but when a mirrored map moves, its original leaves its place: make both maps periodic by \
+                 {{prepare:window}}, without mirror images"
+        )),
+        (_, Some((nx, _)), Some(_)) if other == original => Ok((nx as f64 * first.grid().spacing().0, 0.0)),
+        _ => Err("{heights} and {against} are not mirrored alike: mirror both by {prepare:mirror}, or none".to_owned()),
+    }
 }

@@ -182,6 +182,32 @@ impl Preparation {
             return self.clone().cleaned().run(map, log);
         }
         log.tell("read", format!("{}{}", described(&map), beside(&map)));
+        map = self.interpret(map, log)?;
+        let has_codes = !log.warnings.is_empty();
+        if let Some(&[x, y, nx, ny]) = self.crop.as_deref() {
+            map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
+            log.tell("crop", format!("from index [{x}, {y}] on: {}", described(&map)));
+        }
+        log.warn(Warning::of_topography(&map).into_iter().filter(is_no_height), &map);
+        if self.flip {
+            map = map.flip();
+            log.tell("flip", "peaks are valleys now");
+        }
+        map = self.clean_lines(map, log)?;
+        map = self.level(map, log)?;
+        map = self.continue_periodically(map, log)?;
+        if let Some(holes) = holes(&map) {
+            log.tell("left", format!("points are missing still, {holes}: fill them before solving"));
+        }
+        // where codes for missing points are among the heights, they alone make the slope
+        let is_left = |found: &Warning| !(is_code(found) || is_no_height(found) || has_codes);
+        log.warn(Warning::of_topography(&map).into_iter().filter(is_left), &map);
+        map.unread.clear();
+        Ok(map)
+    }
+
+    /// Takes the numbers of a file for what they mean: side lengths, missing points, the factor and the unit of heights.
+    fn interpret(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
         if let Some((lengths, unit)) = &self.lengths {
             let before = map.lengths.map_or("unknown".to_owned(), |before| sides(before, map.unit.as_deref()));
             (map.lengths, map.unit) = (Some(*lengths), unit.clone());
@@ -193,9 +219,7 @@ impl Preparation {
             let (found, nodes) = (map.missing() - before, map.heights.len());
             log.tell_rms("missing", format!("{} stood at {found} of {nodes} points", plain(*code)), &map);
         }
-        let is_code = |warning: &Warning| warning.code == WarningCode::MissingCode;
         log.warn(Warning::of_topography(&map).into_iter().filter(is_code), &map);
-        let has_codes = !log.warnings.is_empty();
         if let Some(factor) = self.scale {
             let to_metres = map.unit.as_deref().and_then(power_of_length).filter(|power| *power != 0);
             if self.unit.is_none() && to_metres.is_some_and(|power| factor == times_ten_to(power, 1.0)) {
@@ -210,16 +234,11 @@ impl Preparation {
             let before = map.unit.replace(unit.clone()).unwrap_or("unknown".to_owned());
             log.tell("unit", format!("{unit}, before {before}"));
         }
-        if let Some(&[x, y, nx, ny]) = self.crop.as_deref() {
-            map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
-            log.tell("crop", format!("from index [{x}, {y}] on: {}", described(&map)));
-        }
-        let is_no_height = |warning: &Warning| matches!(warning.code, WarningCode::Axes | WarningCode::ByteOrder);
-        log.warn(Warning::of_topography(&map).into_iter().filter(is_no_height), &map);
-        if self.flip {
-            map = map.flip();
-            log.tell("flip", "peaks are valleys now");
-        }
+        Ok(map)
+    }
+
+    /// Removes what scanning leaves: offsets between lines, scars and spikes.
+    fn clean_lines(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
         let along = self.scan_axis.unwrap_or(ScanAxis::X);
         let axis = if along == ScanAxis::X { "x" } else { "y" };
         if let Some(alignment) = self.align_rows {
@@ -260,6 +279,11 @@ impl Preparation {
             log.tell_change("despike", what, &map, &before);
             log.warn(Warning::of_despiked(spikes.nodes.len(), nodes), &map);
         }
+        Ok(map)
+    }
+
+    /// Subtracts form and trend, and fills missing points.
+    fn level(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
         if let Some(form) = self.remove_form {
             let (fit, before) = (map.fit_form(form)?, rms(&map));
             map = map.remove_form(form)?;
@@ -276,6 +300,11 @@ impl Preparation {
             map = map.fill()?;
             log.tell_rms("fill", format!("{missing} of {nodes} points filled"), &map);
         }
+        Ok(map)
+    }
+
+    /// Makes a map periodic, and chooses its waves and nodes.
+    fn continue_periodically(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
         if let Some(fraction) = self.window {
             let before = rms(&map);
             map = map.window(fraction)?;
@@ -305,19 +334,16 @@ impl Preparation {
             let moved = "nodes moved to the middles of their cells";
             log.tell("resample", format!("{} from {before}, {moved}", described(&map)));
         }
-        if let Some(holes) = holes(&map) {
-            log.tell("left", format!("points are missing still, {holes}: fill them before solving"));
-        }
-        // where codes for missing points are among the heights, they alone make the slope
-        log.warn(
-            Warning::of_topography(&map)
-                .into_iter()
-                .filter(|found| !(is_code(found) || is_no_height(found) || has_codes)),
-            &map,
-        );
-        map.unread.clear();
         Ok(map)
     }
+}
+
+fn is_code(warning: &Warning) -> bool {
+    warning.code == WarningCode::MissingCode
+}
+
+fn is_no_height(warning: &Warning) -> bool {
+    matches!(warning.code, WarningCode::Axes | WarningCode::ByteOrder)
 }
 
 /// A map in a unit of length. One without a unit is in it already.

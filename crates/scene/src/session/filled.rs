@@ -113,20 +113,24 @@ impl<T: Scalar> Session<T> {
         self.course = Some(match file.zip(identity) {
             None => course.starting_from(start),
             Some((file, identity)) => {
-                let TableFile { out, format, fields, force, is_case, .. } = file;
-                let known = format.or_else(|| Format::of(&out));
-                let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
-                let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
-                let header = self.facts.units.columns(&names, control.name(), self.grid.is_line());
-                let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
-                let opening = Opening { out, format, names, header, identity, loads, fields, force, is_case, beside };
-                let nodes = self.nodes()?;
-                let (table, course) = course.open(opening, start, &nodes, &self.facts.processes)?;
+                let opening = self.opening(file, &course, identity, control.name())?;
+                let (table, course) = course.open(opening, start, &self.nodes()?, &self.facts.processes)?;
                 self.table = Some(table);
                 course
             }
         });
         Ok(())
+    }
+
+    /// What opens the table of a course in a file.
+    fn opening(&self, file: TableFile, course: &Course<T>, identity: Identity, control: &str) -> Outcome<Opening> {
+        let TableFile { out, format, fields, force, is_case, .. } = file;
+        let known = format.or_else(|| Format::of(&out));
+        let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
+        let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
+        let header = self.facts.units.columns(&names, control, self.grid.is_line());
+        let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
+        Ok(Opening { out, format, names, header, identity, loads, fields, force, is_case, beside })
     }
 
     /// The identity of the problem with the fields of a table, which the first of several processes knows, from a given
