@@ -226,10 +226,10 @@ impl Surface {
             let (mx, my) = heights.dim();
             Self::new(Grid::new((mx, my), (lx * (mx / nx) as f64, ly * (my / ny) as f64))?, heights)
         };
-        let of = |whole: &Self| match boundary {
-            Boundary::Periodic => whole.spectrum().nodes_per_wave(),
+        let of = |whole: &Self| match boundary.is_periodic() {
+            true => whole.spectrum().nodes_per_wave(),
             // side lengths and heights of a surface
-            Boundary::Free { .. } => mirrored(whole).map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
+            false => mirrored(whole).map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
         };
         of(&self.whole())
     }

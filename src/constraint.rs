@@ -151,6 +151,26 @@ impl<'a, T> Wall<'a, T> {
         matches!(self, Self::Rigid | Self::Capped(_))
     }
 
+    /// Whether any gap is feasible: springs, or the law alone, make the contact pressure a function of the gap.
+    pub(crate) fn is_soft(&self) -> bool {
+        !self.projects()
+    }
+
+    /// Whether the wall is a term of the energy, with gaps below zero.
+    pub(crate) fn goes_below(&self) -> bool {
+        matches!(self, Self::Springs(_) | Self::Capped(_))
+    }
+
+    /// Whether there is a wall, so that not the law alone keeps the surfaces apart.
+    pub(crate) fn keeps_apart(&self) -> bool {
+        !matches!(self, Self::None)
+    }
+
+    /// The springs of the wall, if it has some.
+    pub(crate) fn springs(&self) -> Option<&'a dyn Springs<T>> {
+        if let Self::Springs(springs) = self { Some(*springs) } else { None }
+    }
+
     /// The hardness at which the wall yields, if it does.
     pub(crate) fn hardness(&self) -> Option<&'a Hardness> {
         if let Self::Capped(hardness) = self { Some(hardness) } else { None }
@@ -222,7 +242,7 @@ pub enum Update {
 /// ```
 pub fn check_constraint<T: Real>(constraint: &impl ContactConstraint<T>, nodes: usize, depth: f64) -> Result<()> {
     Error::positive("depth", depth)?;
-    let Wall::Springs(springs) = constraint.wall() else { return Ok(()) };
+    let Some(springs) = constraint.wall().springs() else { return Ok(()) };
     for node in (0..nodes).step_by(nodes.div_ceil(7).max(1)) {
         let slope = |g: f64| springs.slope(node, T::lit(g)).widen();
         let functions: [Named<'_>; 3] = [

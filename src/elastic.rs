@@ -194,6 +194,14 @@ impl Boundary {
         matches!(self, Self::Periodic)
     }
 
+    /// The grid of the surface, by the operator's.
+    pub(crate) fn surface_grid(self, whole: Grid) -> Grid {
+        match self {
+            Self::Periodic => whole,
+            Self::Free { window, .. } => window,
+        }
+    }
+
     /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell.
     pub(crate) fn mean_compliance(self) -> f64 {
         match self {

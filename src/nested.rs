@@ -148,7 +148,7 @@ impl Nested {
     ) -> bool {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
         let hints = law.hints();
-        let longer = hints.of_grid && !hints.zero;
+        let longer = hints.takes_range_of_grid();
         let presses = matches!(control, Control::MeanPressure(load) | Control::Force(load) if load > 0.0);
         let comes_from_afar = presses && settings.branch == Some(Branch::Loading) && hints.touches();
         let least = match control {

@@ -218,7 +218,7 @@ impl<T: Real> Path<T> {
         for &load in &self.legs {
             check_hardness(law, flat.load(load, wall)?, flat, wall)?;
         }
-        if flat.window.is_some() && flat.boundary.is_periodic() {
+        if !flat.faces_all() && flat.boundary.is_periodic() {
             let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                           solve at one load after the other, as Sweep does, or take a free half-space";
             return Err(Error::Unsuited { what: "path", reason });

@@ -14,6 +14,7 @@ use crate::real::{Real, once};
 use crate::surface::Surface;
 
 mod control;
+mod facing;
 mod flat;
 mod window;
 mod yielded;
@@ -149,6 +150,11 @@ impl<T: Real> Problem<T> {
         self.on_nodes.as_deref().unwrap_or(&*self.law)
     }
 
+    /// Whether the surfaces adhere.
+    pub(crate) fn adheres(&self) -> bool {
+        !self.law_on_grid().hints().zero
+    }
+
     /// Lowers the surface, as it was made, by a plastic depth on its grid. With the depth of a
     /// [solution](crate::Solution::plastic_depth) at a [`Hardness`](crate::Hardness) the surface unloads elastically.
     /// Loads that are positions, and the approach, still refer to the surface as it was made.
@@ -180,7 +186,7 @@ impl<T: Real> Problem<T> {
     /// The plastic depth by which the surface is lower than it was made, on its grid; none if it never was lowered.
     pub fn plastic_depth(&self) -> Option<Array2<T>> {
         let depth = self.yielded()?;
-        Some(self.flat.window.as_ref().map_or_else(|| depth.clone(), |window| window.crop(depth, T::zero())))
+        Some(self.flat.crop(depth, T::zero()).into_owned())
     }
 
     /// As [`flatten`](Self::flatten), if the depth `stays`, with a gap of zero where the surface has yielded beyond its

@@ -186,7 +186,7 @@ impl PullOff {
             Error::positive("least expected tension", least)?;
             Error::positive("range of expected tensions", most - least)?;
         }
-        if problem.law_on_grid().hints().zero {
+        if !problem.adheres() {
             let reason = "without adhesion surfaces bear no tension: give a law";
             return Err(Error::Unsuited { what: "pull-off", reason });
         }

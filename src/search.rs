@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use ndarray::Array2;
 
-use crate::constraint::{ContactConstraint, Wall};
+use crate::constraint::ContactConstraint;
 use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::{Real, once};
@@ -167,7 +167,7 @@ impl<T: Real> ContactSearch<T> {
         fraction: f64,
         observe: Observer<'_>,
     ) -> Result<FoundContact<T>> {
-        if let Wall::None = solver.constraint.wall() {
+        if !solver.constraint.wall().keeps_apart() {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
             return Err(Error::Unsuited { what: "contact-fraction", reason });
         }

@@ -7,13 +7,13 @@ use ndarray::Array2;
 
 use crate::adhesion::{AdhesionLaw, Neighbourhood, Touched};
 
-use crate::constraint::{ContactConstraint, Projection, Wall};
+use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
 use crate::names::names;
 use crate::par::{self, Parts as _};
-use crate::problem::{Control, Problem, ProblemMut, Window, smoothed_law};
+use crate::problem::{Control, PressedFlat, Problem, ProblemMut, smoothed_law};
 use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
@@ -217,16 +217,14 @@ impl StabilityTest {
         // the solution has the value of the mean gap, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
         let ProblemMut { operator, law, flat, .. } = problem;
-        let (load, window) = (flat.load(kind, constraint.wall())?, flat.window.as_ref());
+        let load = flat.load(kind, constraint.wall())?;
         let smoothed = smoothed_law(&*operator, law);
         let law = smoothed.as_deref().unwrap_or(law);
-        let slopes = slopes(gap, (law, constraint), near, (&*operator, window))?;
+        let slopes = slopes(gap, (law, constraint), near, (&*operator, flat))?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(operator, slopes, load);
         let mut stability = self.verdict(hessian, control, relative_error, smoothed)?;
-        if let Some(window) = window {
-            stability.mode = window.crop(&stability.mode, T::zero());
-        }
+        stability.mode = flat.crop(stability.mode, T::zero()).into_owned();
         Ok(stability)
     }
 
@@ -277,7 +275,7 @@ fn check_gap<T: Real>(
     gap: &Array2<T>,
 ) -> Result<()> {
     problem.grid().fits("gap", gap.dim())?;
-    if problem.flat.window.is_none() {
+    if problem.flat.faces_all() {
         problem.grid().finite("gap", gap.view())?;
     }
     let yields = "a surface that yields has no energy: it does not come back where the load is taken away";
@@ -306,27 +304,26 @@ fn slopes<T: Real>(
     gap: &Array2<T>,
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
     near: Near<'_>,
-    (operator, window): (&dyn ElasticOperator<T>, Option<&Window>),
+    (operator, flat): (&dyn ElasticOperator<T>, &PressedFlat<T>),
 ) -> Result<Field<T>> {
     let grid = operator.grid();
-    let slab = window.map_or(grid.slab(), Window::held);
-    let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
+    let (slab, gap) = (flat.held(grid), flat.hold(gap));
     let gaps = ordered(gap.view());
     let mut slopes = Field::zeros(gap.dim());
-    let touches = |node, gap| match constraint.wall() {
-        Wall::Springs(springs) => constraint.ends_rigid() && springs.traction(node, gap) < T::zero(),
-        wall => wall.projects() && gap <= T::zero(),
+    let wall = constraint.wall();
+    let touches = |node, gap| match wall.springs() {
+        Some(springs) => constraint.ends_rigid() && springs.traction(node, gap) < T::zero(),
+        None => wall.projects() && gap <= T::zero(),
     };
     let near = match near {
         Near::Contacts => law.hints().touches().then_some(None),
         Near::Of(touched) => touched.map(Some),
     };
     let touched = near.map(|touched| {
-        let grid = (window.map_or(grid, Window::grid), slab);
+        let grid = (flat.grid(grid), slab);
         let mut neighbourhood = Neighbourhood::none(grid, operator.boundary().is_periodic());
         if let Some(touched) = touched {
-            let held = window.map_or_else(|| touched.view().into(), |window| window.hold(touched.view()));
-            neighbourhood.add(&Field::of(held));
+            neighbourhood.add(&Field::of(flat.hold(touched)));
         } else {
             let nodes = neighbourhood.contact.nodes_mut().iter_mut().zip(&*gaps).zip(slab.first_node()..);
             nodes.for_each(|((contact, &gap), node)| *contact = touches(node, gap));
@@ -342,7 +339,7 @@ fn slopes<T: Real>(
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
             if touches(first + i, gap) {
                 *slope = T::infinity();
-            } else if !(slope.is_finite() && gap.is_finite()) && (window.is_none() || gap != T::infinity()) {
+            } else if !(slope.is_finite() && gap.is_finite()) && (flat.faces_all() || gap != T::infinity()) {
                 wrong = wrong.min((first + i) as f64);
             }
         }
@@ -356,8 +353,5 @@ fn slopes<T: Real>(
         slab.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
-    Ok(match window {
-        Some(window) => window.place(&slopes, T::zero()),
-        None => slopes,
-    })
+    Ok(flat.place(slopes, T::zero()))
 }

@@ -168,7 +168,7 @@ impl<T: Real> Sweep<T> {
         if let Some((before, place)) = self.history.last()
             && self.depth.is_none()
             && is_last_unloading(*before, load)
-            && !problem.law_on_grid().hints().zero
+            && problem.adheres()
             && solved.is_settled()
             && solved.solution.report.contact_nodes == 0
         {
@@ -194,7 +194,7 @@ impl<T: Real> Sweep<T> {
 
     /// The start under a load by the history, which keeps only the gaps that the next start needs.
     fn next_start(&mut self, problem: &Problem<T>, least: Least<T>, load: Control) -> Option<Begin<'_, T>> {
-        let adheres = !problem.law_on_grid().hints().zero;
+        let adheres = problem.adheres();
         let ahead = |two, load| ahead(problem, least, two, load);
         let (before, _) = self.history.last()?;
         let anew = (self.loads || !adheres) && self.depth.is_none() && is_far(*before, load);
@@ -245,11 +245,11 @@ fn ahead<T: Real>(
         ) if k == l && l == m => (c - b) / (b - a),
         _ => f64::NAN,
     };
-    let on_branch = problem.law_on_grid().hints().zero || steps >= 0.0;
+    let on_branch = !problem.adheres() || steps >= 0.0;
     if !(steps.is_finite() && on_branch) {
         return None;
     }
-    let on = (problem.flat.window.as_ref(), *problem.operator.grid());
+    let on = (&problem.flat, *problem.operator.grid());
     Some(extrapolated([&before.1.gap, &last.1.gap], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
 }
 

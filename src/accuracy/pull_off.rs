@@ -208,7 +208,7 @@ impl Accuracy {
         let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
         let mut searches = Searches { solver, operators, observe, search, tensions: Vec::new() };
         let mut levels = Vec::new();
-        if hints.of_grid && !hints.zero {
+        if hints.takes_range_of_grid() {
             levels = searches.on_coarser_grids(surface, law, self.nested.coarsest.max(COARSEST))?;
         }
         let (mut surface, mut law) = (surface.clone(), law.clone());
@@ -239,7 +239,7 @@ impl Accuracy {
             };
             let reached = !refines || error.is_ok() && ended;
             let ends = reached || ended || !refinable || bytes(1) > self.memory;
-            let fine = if ends { None } else { Some(refined(&surface, boundary == Boundary::Periodic)?) };
+            let fine = if ends { None } else { Some(refined(&surface, boundary.is_periodic())?) };
             refinable &= !fine.as_ref().is_some_and(|fine| overshoots(fine, &surface));
             let Some(fine) = fine.filter(|_| refinable) else {
                 let too_large = !reached && !ended && refinable && bytes(1) > self.memory;

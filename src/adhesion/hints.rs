@@ -61,6 +61,11 @@ impl<T: Real> Hints<T> {
         self.touching && !self.zero
     }
 
+    /// Whether a law that is not zero has the range of the grid.
+    pub(crate) fn takes_range_of_grid(&self) -> bool {
+        self.of_grid && !self.zero
+    }
+
     /// The name of the law in a solution; a law that is zero has the name of no adhesion.
     pub(crate) fn known_as(&self) -> &'static str {
         if self.zero { "none" } else { self.name }

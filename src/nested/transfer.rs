@@ -152,8 +152,8 @@ impl Touching {
 
     pub(crate) fn of<T: Real>(wall: Wall<'_, T>, law: &dyn AdhesionLaw<T>) -> Self {
         Self {
-            free: matches!(wall, Wall::Springs(_) | Wall::None),
-            yields: matches!(wall, Wall::Capped(_)),
+            free: wall.is_soft(),
+            yields: wall.hardness().is_some(),
             // surfaces stick where they touch
             least: if law.hints().touches() { LEAST } else { 0.0 },
         }

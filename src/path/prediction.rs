@@ -19,7 +19,7 @@ impl<T: Real> Path<T> {
             [before, last] => {
                 let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
-                let on = (bench.problem.flat.window.as_ref(), *bench.problem.operator.grid());
+                let on = (&bench.problem.flat, *bench.problem.operator.grid());
                 let gap = extrapolated([&before.gap, &last.gap], steps, (bench.least(), false), on);
                 Begin::Ahead { gap, last, nearness: Nearness::Loaded }
             }

@@ -1,7 +1,5 @@
 //! The departure of a path from a branch of saddles.
 
-use ndarray::CowArray;
-
 use super::Path;
 use super::bench::Bench;
 use crate::error::Result;
@@ -23,7 +21,7 @@ impl<T: Real> Path<T> {
         let ProblemMut { operator, law, flat, .. } = bench.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);
-        let gap = (&solution.gap, Near::Of(solution.touched.as_ref()), flat.window.as_ref());
+        let gap = (&solution.gap, Near::Of(solution.touched.as_ref()), flat);
         self.watch.look(operator, (followed, &bench.solver.constraint), gap, load)
     }
 
@@ -37,8 +35,7 @@ impl<T: Real> Path<T> {
     ) -> Result<(Option<Solved<T>>, bool)> {
         let grid = *bench.problem.grid();
         let moved = self.places.last().map(|Place { gap: last, .. }| {
-            let window = bench.problem.flat.window.as_ref();
-            let last = window.map_or(last.view().into(), |window| CowArray::from(window.crop(last, T::infinity())));
+            let last = bench.problem.flat.crop(last, T::infinity());
             let mut moved = from.gap.clone();
             // absent nodes are infinitely far, and stay there
             moved.zip_mut_with(&last, |gap, &last| *gap = if *gap == last { T::zero() } else { *gap - last });

@@ -55,10 +55,7 @@ pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Resul
 /// Refuses a surface, an operator and a law that are not on one grid.
 fn check<T: Real>(surface: &Surface, operator: &dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<()> {
     let (boundary, grid) = (operator.boundary(), surface.grid());
-    let expected = match boundary {
-        Boundary::Periodic => *operator.grid(),
-        Boundary::Free { window, .. } => window,
-    };
+    let expected = boundary.surface_grid(*operator.grid());
     Error::shape("surface", grid.shape(), expected.shape())?;
     if grid.is_shared() != operator.grid().is_shared() {
         let reason = "surface and operator have to be on one grid: make both on the shared one";
@@ -154,16 +151,6 @@ impl<T: Real> PressedFlat<T> {
         (self.stiffness * self.rms_height).max(0.0)
     }
 
-    /// The grid of the surface; the operator's grid is the `whole`.
-    pub(crate) fn grid<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
-        self.window.as_ref().map_or(whole, Window::grid)
-    }
-
-    /// The number of nodes that face the surface; the operator's grid has `nodes`.
-    pub(crate) fn facing(&self, nodes: usize) -> usize {
-        self.window.as_ref().map_or(nodes, Window::facing)
-    }
-
     /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
     pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
         let refused = |reason| Err(Error::Unsuited { what: control.name(), reason });
@@ -175,7 +162,7 @@ impl<T: Real> PressedFlat<T> {
             Control::Spring { .. } => "rest of the spring",
         };
         let held = || Error::finite(name, control.value());
-        let (free, absent) = (!self.boundary.is_periodic(), self.window.is_some());
+        let (free, absent) = (!self.boundary.is_periodic(), !self.faces_all());
         let on_grid = |pressure: f64| pressure / self.padding;
         let load = match control {
             Control::MeanGap(_) if free => {
@@ -193,7 +180,7 @@ impl<T: Real> PressedFlat<T> {
                      a free half-space",
                 );
             }
-            Control::MeanGap(_) if matches!(wall, Wall::None) => Load::Gap(held()?),
+            Control::MeanGap(_) if !wall.keeps_apart() => Load::Gap(held()?),
             Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)? + self.mean_depth()),
             Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
             Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
@@ -237,16 +224,13 @@ impl<T: Real> PressedFlat<T> {
 
     /// What the mean pressure adds to an approach, over that pressure; zero for a body without one.
     fn approach_compliance(&self) -> f64 {
-        match self.boundary {
-            Boundary::Free { mean_compliance, .. } => mean_compliance,
-            Boundary::Periodic => self.far_compliance.unwrap_or(0.0),
-        }
+        if self.boundary.is_periodic() { self.far_compliance.unwrap_or(0.0) } else { self.boundary.mean_compliance() }
     }
 
     /// The approach at a mean gap and a mean pressure on the operator's grid; none in a periodic cell, where the energy
     /// does not have the compression of the whole.
     pub(crate) fn approach(&self, mean_gap: f64, pressure: f64) -> Option<f64> {
-        let Boundary::Free { mean_compliance, .. } = self.boundary else { return None };
-        Some(self.peak - mean_gap + mean_compliance * pressure)
+        let approach = self.peak - mean_gap + self.boundary.mean_compliance() * pressure;
+        (!self.boundary.is_periodic()).then_some(approach)
     }
 }

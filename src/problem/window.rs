@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
+use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::error::Result;
 use crate::field::{Field, all_finite_in, ordered};
@@ -142,11 +142,11 @@ impl Window {
     }
 
     /// A field of the operator's grid, cropped to the surface's grid.
-    pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
+    pub(crate) fn crop<T: Real>(&self, field: &ArrayRef2<T>, absent: T) -> Array2<T> {
         self.held.moved(self.cut(field, absent).into_array().into(), &self.grid.slab()).into_owned()
     }
 
-    pub(crate) fn cut<A: Copy + Default + 'static>(&self, field: &Array2<A>, absent: A) -> Field<A> {
+    pub(crate) fn cut<A: Copy + Default + 'static>(&self, field: &ArrayRef2<A>, absent: A) -> Field<A> {
         let mut cut = Field::filled(self.held.held(), absent);
         let field = ordered(field.view());
         for (nodes, own) in self.places() {

@@ -29,16 +29,13 @@ impl<T: Real> PressedFlat<T> {
     /// A plastic depth of the surface's grid, on the operator's grid.
     pub(super) fn placed(&self, operator: &dyn ElasticOperator<T>, depth: ArrayView2<'_, T>) -> Result<Field<T>> {
         let grid = *operator.grid();
-        let surface = self.window.as_ref().map_or(&grid, |window| window.grid());
+        let surface = self.grid(&grid);
         surface.fits("plastic depth", depth.dim())?;
         surface.finite("plastic depth", depth)?;
         let negative = depth.iter().find(|&&depth| depth < T::zero());
         let refused = |&depth: &T| Error::non_negative("plastic depth", depth.widen()).map(|_| ());
         surface.slab().agreed(negative.map_or(Ok(()), refused))?;
-        Ok(match &self.window {
-            Some(window) => window.place(&Field::of(window.hold(depth)), T::zero()),
-            None => Field::of(depth),
-        })
+        Ok(self.place(Field::of(self.hold(depth)), T::zero()))
     }
 
     /// Lowers the surface, as it was made, by a depth on the operator's grid. The same depth gives the same bits,

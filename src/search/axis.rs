@@ -4,7 +4,6 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::bracket::{Point, Target};
 use crate::constraint::Wall;
-use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat};
 use crate::real::Real;
@@ -27,16 +26,16 @@ impl Axis {
     pub(super) fn of<T: Real>(flat: &PressedFlat<T>, adhesion: bool) -> Result<Self> {
         let &PressedFlat { rms_height, stiffness, height_span: span, .. } = flat;
         Error::positive("rms height of the surface", rms_height)?;
-        match (adhesion, flat.boundary) {
+        match (adhesion, flat.boundary.is_periodic()) {
             // the waves of free heights begin and end at the edge of the window, waves of the padding do not count
             (false, _) => Ok(Self::Pressure { flat: stiffness * rms_height }),
-            (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Unsuited {
+            (true, true) if !flat.faces_all() => Err(Error::Unsuited {
                 what: "contact-fraction",
                 reason: "with adhesion it is searched for by the mean gap, which a periodic surface with absent nodes \
                          does not have: give a pressure",
             }),
-            (true, Boundary::Periodic) => Ok(Self::Gap { rms_height }),
-            (true, _) => Ok(Self::Approach { span }),
+            (true, true) => Ok(Self::Gap { rms_height }),
+            (true, false) => Ok(Self::Approach { span }),
         }
     }
 

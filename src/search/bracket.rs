@@ -79,7 +79,7 @@ pub(super) struct Bracket {
 
 impl Bracket {
     pub(super) fn of<T: Real>(problem: &Problem<T>, wall: Wall<'_, T>, fraction: f64) -> Result<Self> {
-        let axis = Axis::of(&problem.flat, !problem.law_on_grid().hints().zero)?;
+        let axis = Axis::of(&problem.flat, problem.adheres())?;
         let nodes = problem.grid().nodes();
         let target = Target { fraction, facing: problem.flat.facing(nodes) as f64, nodes: nodes as f64 };
         if !(target.wanted() >= 1.0 && fraction < 1.0) {

@@ -83,7 +83,7 @@ impl Branch {
             Load::Gap(_) => false,
             Load::Pressure(_) | Load::Spring { .. } => load.pressure_at(flat.peak) >= 0.0,
         };
-        let usual = if presses && !matches!(wall, Wall::Springs(_)) { Self::Loading } else { Self::Unloading };
+        let usual = if presses && wall.springs().is_none() { Self::Loading } else { Self::Unloading };
         Ok((!law.hints().zero && !paper).then(|| wanted.unwrap_or(usual)))
     }
 }

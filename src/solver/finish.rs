@@ -53,14 +53,13 @@ pub(super) fn finish<T: Real, Lo: Real>(mut descent: Descent<'_, T, Lo>, status:
     let (on_grid, flat, touches) = (posed.formula(), posed.flat, posed.touches);
     let (touched, not_parted) = (posed.near(), posed.not_parted(&fields.gap));
     let (grid, yields, law) = (*posed.operators.state().grid(), plastic.is_some(), posed.given.clone());
-    if flat.window.is_some() && report.status == Status::Converged {
+    if !flat.faces_all() && report.status == Status::Converged {
         // the nodes that face no surface have their part of the residual: in balance the others bear the load
         let share = T::lit((mean * nodes - carried.pressure) / posed.facing());
         fields.pressure.nodes_mut().iter_mut().for_each(|p| *p += share);
     }
     let [gap, pressure] = [fields.gap, fields.pressure].map(Field::into_array);
-    let touched =
-        touched.map(|near| flat.window.as_ref().map_or(near.clone(), |window| window.release(near)).into_array());
+    let touched = touched.map(|near| flat.release(near).into_array());
     let solution = Solution { gap, pressure, contact_pressure, plastic_depth, touched, grid, report, law };
     let (mut solution, gap) = match &flat.window {
         None => (solution, None),
@@ -123,7 +122,7 @@ fn report<T: Real, Lo: Real>(
     // the mean of the displacement is no wave; its pressure is that at which the energy is least
     let of_mean = 0.5 * flat.boundary.mean_compliance() * mean.powi(2);
     // the gap to the yielded surface, compared with the gap to the surface before the solve
-    let facing_mean = if flat.window.is_some() { carried.gap / facing } else { iterate.mean_gap() };
+    let facing_mean = if flat.faces_all() { iterate.mean_gap() } else { carried.gap / facing };
     let deeper = plastic.map_or(0.0, |plastic| plastic.depth_mean - flat.mean_depth() * nodes / facing);
     Report {
         status: final_status(descent, status, load_error),
@@ -176,7 +175,7 @@ fn adhesive_contact_fraction<T: Real, Lo: Real>(
     let hints = posed.law().hints();
     // below a wall that gives the energy continues
     let hard = posed.projects() && plastic.is_none_or(|plastic| plastic.fraction == 0.0);
-    (hints.of_grid && !hints.zero && hard).then_some(share)
+    (hints.takes_range_of_grid() && hard).then_some(share)
 }
 
 fn final_status<T: Real, Lo: Real>(descent: &Descent<'_, T, Lo>, status: Status, load_error: f64) -> Status {

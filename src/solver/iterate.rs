@@ -49,7 +49,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
         let grid = posed.operators.state().grid();
         let (grid, shape) = (*grid, grid.field_shape());
         let uniform = begin.is_default();
-        let given = given_start(begin, &grid, flat.window.as_ref(), load, posed.wall())?;
+        let given = given_start(begin, &grid, flat, load, posed.wall())?;
         let (gap, pressure) = match given {
             Some(gap) => {
                 let mut pressure = Field::zeros(shape);
@@ -75,7 +75,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
             applications: 0,
         };
         if uniform
-            && iterate.posed.law().hints().zero
+            && !iterate.posed.adheres()
             && (!iterate.posed.flat.boundary.is_periodic() || iterate.posed.is_hardly_pressed())
         {
             iterate.start_undeformed()?;
@@ -99,7 +99,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
         local.run(reducer, write(gap).zip(write(pressure)), |local, _, (gap, pressure)| {
             for (gap, pressure) in gap.iter_mut().zip(pressure) {
                 let apart = peak - *gap;
-                (*gap, *pressure) = (if local.projects() { apart.max(T::zero()) } else { apart }, T::zero());
+                (*gap, *pressure) = (apart.max(local.touching()), T::zero());
             }
         });
         // nothing is deformed: the sums that would cancel need not be trusted

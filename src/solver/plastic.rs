@@ -26,10 +26,8 @@ impl<T: Real> Potential<'_, T> {
         tractions: &mut [T],
         slopes: &mut [T],
     ) -> f64 {
-        if !self.is_capped() {
-            return 0.0;
-        }
-        let caps = self.caps(first, gaps.len());
+        let Some(hardness) = self.hardness() else { return 0.0 };
+        let caps = hardness.caps(first, gaps.len());
         // a node that stops there is beyond it by no more than its rounding
         let rounding = T::lit(4.0) * cast(Lo::epsilon());
         sums!([gaps, change, caps], [tractions, slopes], |i| {
@@ -46,10 +44,8 @@ impl<T: Real> Potential<'_, T> {
 
     /// Σ H d over nodes that touch after a step d from where they yield.
     pub(crate) fn landed<Lo: Real>(&self, first: usize, gaps: &[T], step: &[Lo]) -> f64 {
-        if !self.is_capped() {
-            return 0.0;
-        }
-        let caps = self.caps(first, gaps.len());
+        let Some(hardness) = self.hardness() else { return 0.0 };
+        let caps: [T; CHUNK] = hardness.caps(first, gaps.len());
         let nodes = gaps.iter().zip(step).zip(caps);
         let landed = nodes.filter(|((gap, step), _)| **gap == T::zero() && **step > Lo::zero());
         landed.map(|((_, step), cap)| step.widen() * cap.widen()).sum()

@@ -65,8 +65,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         let (flat, operator) = (self.flat, self.operators.state());
         let surface = flat.grid(operator.grid()).alone();
         self.constraint.start(&surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;
-        let unknown =
-            flat.window.is_some() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
+        let unknown = !flat.faces_all() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
         if self.settings.method == Method::Rey2017 && unknown {
             return Err(rey2017::refused(
                 "it knows neither springs nor absent nodes nor a free boundary nor a hardness: take the default method",
@@ -124,7 +123,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
 
     /// Whether springs end at a rigid wall, or are so stiff that their gap is near the gap at a rigid wall.
     fn nearly_rigid(&self) -> bool {
-        let Wall::Springs(springs) = self.constraint.wall() else { return false };
+        let Some(springs) = self.constraint.wall().springs() else { return false };
         let stiffness = springs.slope(0, self.pressed()).widen();
         self.constraint.ends_rigid() || stiffness > STIFF * self.stiffness_range().1
     }
@@ -136,7 +135,12 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
 
     /// The gap at which a wall stands for the repulsion of a law.
     pub(super) fn separation(&self) -> Option<T> {
-        matches!(self.constraint.wall(), Wall::None).then(|| self.adhesion.hints().rest.unwrap_or_else(T::zero))
+        (!self.constraint.wall().keeps_apart()).then(|| self.adhesion.hints().rest.unwrap_or_else(T::zero))
+    }
+
+    /// Whether the surfaces adhere in the present stage.
+    pub(super) fn adheres(&self) -> bool {
+        !self.law().hints().zero
     }
 
     pub(super) fn nodes(&self) -> f64 {
@@ -171,7 +175,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
 
     /// Whether nothing but the law keeps the surfaces apart.
     pub(super) fn has_no_wall(&self) -> bool {
-        matches!(self.wall(), Wall::None)
+        !self.wall().keeps_apart()
     }
 
     pub(super) fn is_gap_controlled(&self) -> bool {

@@ -1,7 +1,7 @@
 //! The local energy of a node: the adhesion law, and the constraint where it is a term of the energy.
 
 use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
-use crate::constraint::{ContactConstraint, Hardness, Wall};
+use crate::constraint::{ContactConstraint, Hardness, Springs, Wall};
 use crate::field::{CHUNK, Reducer, Sums, found};
 use crate::par::{Nodes, Parts};
 use crate::problem::Window;
@@ -82,7 +82,7 @@ impl<'a, T: Real> Potential<'a, T> {
     /// The shares of the adhesive energy in contact, of at most a chunk of nodes; zeros for a law with a range of its own.
     pub(crate) fn shares(&self, first: usize, gap: &[T]) -> [T; CHUNK] {
         let mut shares = [T::zero(); CHUNK];
-        if self.hints.of_grid && !self.hints.zero {
+        if self.hints.takes_range_of_grid() {
             self.law.contact_shares(first, gap, &mut shares[..gap.len()]);
         }
         shares
@@ -142,12 +142,16 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Whether the local energy of a node is linear along every step: there is no law, and steps end at its corners.
     pub(crate) fn is_straight(&self) -> bool {
-        self.hints.zero && !matches!(self.wall, Some(Wall::Springs(_)))
+        self.hints.zero && self.springs().is_none()
     }
 
     /// Whether the wall is a term of the energy, with gaps below zero.
     fn goes_below(&self) -> bool {
-        matches!(self.wall, Some(Wall::Springs(_) | Wall::Capped(_)))
+        self.wall.is_some_and(|wall| wall.goes_below())
+    }
+
+    fn springs(&self) -> Option<&'a dyn Springs<T>> {
+        self.wall.and_then(|wall| wall.springs())
     }
 
     pub(crate) fn hardness(&self) -> Option<&'a Hardness> {
@@ -165,13 +169,13 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Whether the contact pressure is a function of the gap, by springs or by the law itself.
     pub(crate) fn is_soft(&self) -> bool {
-        matches!(self.wall, Some(Wall::Springs(_) | Wall::None))
+        self.wall.is_some_and(|wall| wall.is_soft())
     }
 
     /// The stiffness with which springs, or a law that repels, hold nodes, and the largest load that pulls: springs
     /// bear no more than their pressure at rest.
     pub(crate) fn holds(&self, first: usize, gaps: &[T], slopes: &mut [T], limits: &mut [T]) {
-        let Some(Wall::Springs(springs)) = self.wall else {
+        let Some(springs) = self.springs() else {
             self.law(Of::Slope, first, gaps, slopes);
             return limits.fill(T::infinity());
         };
@@ -208,7 +212,7 @@ impl<'a, T: Real> Potential<'a, T> {
         if let Some(hardness) = self.hardness() {
             return hardness.add(of as usize, first, gaps, out);
         }
-        let Some(Wall::Springs(springs)) = self.wall else { return };
+        let Some(springs) = self.springs() else { return };
         let mut of_springs = [T::zero(); CHUNK];
         let of_springs = &mut of_springs[..gaps.len()];
         springs.evaluate(first, gaps, Values::one(of as usize, of_springs));
@@ -271,30 +275,30 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// The tractions of the attraction alone.
     pub(crate) fn attractions(&self, first: usize, gaps: &[T], tractions: &[T], out: &mut [T]) {
-        match self.wall {
-            Some(Wall::Springs(_) | Wall::Capped(_)) => self.law(Of::Traction, first, gaps, out),
-            Some(Wall::None) => out.iter_mut().zip(tractions).for_each(|(out, &t)| *out = t.max(T::zero())),
-            Some(Wall::Rigid) | None => out.copy_from_slice(tractions),
+        if self.goes_below() {
+            self.law(Of::Traction, first, gaps, out);
+        } else if self.is_soft() {
+            out.iter_mut().zip(tractions).for_each(|(out, &t)| *out = t.max(T::zero()));
+        } else {
+            out.copy_from_slice(tractions);
         }
     }
 
     pub(crate) fn pressed(&self, first: usize, gaps: &[T], tractions: &[T]) -> Pressed {
         let mut found = Pressed::NONE;
-        let springs = match self.wall {
-            Some(Wall::Springs(springs)) => springs,
-            Some(Wall::Capped(hardness)) => {
-                let mut energies = [T::zero(); CHUNK];
-                let energies = &mut energies[..gaps.len()];
-                hardness.add(Of::Energy as usize, first, gaps, energies);
-                return sums!([gaps, energies], [], |i| {} => Pressed {
-                    nodes: if gaps[i] <= T::zero() { 1.0 } else { 0.0 }, energy: energies[i].widen()
-                });
-            }
-            Some(Wall::None) => {
+        if let Some(hardness) = self.hardness() {
+            let mut energies = [T::zero(); CHUNK];
+            let energies = &mut energies[..gaps.len()];
+            hardness.add(Of::Energy as usize, first, gaps, energies);
+            return sums!([gaps, energies], [], |i| {} => Pressed {
+                nodes: if gaps[i] <= T::zero() { 1.0 } else { 0.0 }, energy: energies[i].widen()
+            });
+        }
+        let Some(springs) = self.springs() else {
+            if self.is_soft() {
                 found.nodes = tractions.iter().filter(|&&traction| traction < T::zero()).count() as f64;
-                return found;
             }
-            _ => return found,
+            return found;
         };
         let (mut energies, mut tractions) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (energies, tractions) = (&mut energies[..gaps.len()], &mut tractions[..gaps.len()]);
@@ -308,7 +312,7 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// The contact pressures at gaps and full elastic pressures.
     pub(crate) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
-        if let Some(Wall::Springs(springs)) = self.wall {
+        if let Some(springs) = self.springs() {
             springs.evaluate(first, gaps, Values::one(Of::Traction as usize, contact));
             // from zero, as the negative of no traction is a negative zero
             return contact.iter_mut().for_each(|contact| *contact = T::zero() - *contact);

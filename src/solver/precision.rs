@@ -4,7 +4,6 @@ use super::Method;
 use super::driver::{Job, run};
 use super::operators::{One, Two};
 use super::report::Solved;
-use crate::constraint::Wall;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::Load;
@@ -33,5 +32,5 @@ fn takes_coarse_corrections<T: Real>(job: &Job<'_, T>) -> bool {
     let (flat, wall) = (job.flat, job.constraint.wall());
     let light = LIGHT * flat.stiffness * flat.rms_height;
     let is_light = matches!(flat.load(job.control, wall), Ok(Load::Pressure(pressure)) if pressure.abs() < light);
-    job.settings.method == Method::Preconditioned && !is_light && !matches!(wall, Wall::None)
+    job.settings.method == Method::Preconditioned && !is_light && wall.keeps_apart()
 }

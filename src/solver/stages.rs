@@ -4,7 +4,7 @@ use super::descent::{Descent, End};
 use super::passes::Fields;
 use super::plan::{Stage, StageLaw};
 use super::start::{check_start, uniform_start};
-use crate::constraint::{Update, Wall};
+use crate::constraint::Update;
 use crate::error::Result;
 use crate::field::{CHUNK, Field, read, write};
 use crate::par::Parts;
@@ -77,7 +77,7 @@ fn soften<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<()> {
     let pressures = descent.iterate.posed.on_surface(&contact, T::zero());
     if !descent.iterate.posed.constraint.bear(pressures.view(), descent.proof().relative_error()) {
         let local = descent.iterate.posed.potential();
-        let Wall::Springs(springs) = descent.iterate.posed.constraint.wall() else { return Ok(()) };
+        let Some(springs) = descent.iterate.posed.constraint.wall().springs() else { return Ok(()) };
         let Fields { reducer, gap, .. } = &mut descent.iterate.fields;
         local.run(reducer, write(gap).zip(read(&contact)), |_, first, (gap, contact)| {
             let nodes = gap.iter_mut().zip(contact).zip(first..).filter(|((_, pressure), _)| **pressure > T::zero());
@@ -109,7 +109,7 @@ fn sharpen<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, end: &End) -> Re
 
 pub(super) fn update_constraint<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Update {
     let whole = || descent.iterate.posed.on_surface(&descent.iterate.fields.gap, T::infinity());
-    let gap = matches!(descent.iterate.posed.constraint.wall(), Wall::Springs(_)).then(whole);
+    let gap = descent.iterate.posed.constraint.wall().springs().map(|_| whole());
     let work = descent.proof().error_scale().energy * descent.iterate.posed.nodes();
     let outer = gap.map_or(Update::Done, |gap| descent.iterate.posed.constraint.update(gap.view(), work));
     // a constraint that is met where a round ended early has to be met by the solution

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, ordered, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
-use crate::problem::{Load, PressedFlat, Window};
+use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
 /// The start of a solve: the gap from which the energy is minimised.
@@ -125,7 +125,7 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
 pub(super) fn given_start<T: Real>(
     begin: Begin<'_, T>,
     grid: &Grid,
-    window: Option<&Window>,
+    flat: &PressedFlat<T>,
     load: Load,
     wall: Wall<'_, T>,
 ) -> Result<Option<Field<T>>> {
@@ -135,17 +135,13 @@ pub(super) fn given_start<T: Real>(
         Begin::At(Start::Near(gap)) => (gap.into(), false),
         Begin::Prolonged(gap) | Begin::Found(Place { gap, .. }) | Begin::Ahead { gap, .. } => (gap.into(), true),
     };
-    let start = match window {
-        Some(window) if !whole => window.start(given.view())?.into(),
-        _ => given,
-    };
+    let start = if whole { given } else { flat.start(given)? };
     grid.fits("starting gap", start.dim())?;
     grid.finite("starting gap", start.view())?;
-    let confined = |node: usize| window.is_none_or(|window| window.faces(node));
     // without places, and without an end, the pass is several times as fast
     let some = wall.is_rigid() && start.fold(false, |some, &gap| some | (gap < T::zero()));
     let mut nodes = start.iter().zip(grid.slab().first_node()..);
-    let find = || nodes.find(|&(&gap, node)| gap < T::zero() && confined(node));
+    let find = || nodes.find(|&(&gap, node)| gap < T::zero() && flat.faces(node));
     let negative = some.then(find).flatten().map_or(Ok(()), |(gap, _)| {
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
@@ -201,7 +197,7 @@ pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,
     (least, long): (Least<T>, bool),
-    (window, grid): (Option<&Window>, Grid),
+    (flat, grid): (&PressedFlat<T>, Grid),
 ) -> Array2<T> {
     let (steps, mut next, before) = (T::lit(steps), Field::of(last), ordered(before.view()));
     let power = |gap: T| gap.sqrt() * gap.sqrt().sqrt();
@@ -213,7 +209,7 @@ pub(crate) fn extrapolated<T: Real>(
             let bent = power(*gap) + steps * (power(*gap) - power(before));
             let wanted = if bends && bent > T::zero() { bent * bent.cbrt() } else { straight };
             let feasible = bounded(least, *gap, wanted);
-            let free = wanted < feasible && window.is_some_and(|window| !window.faces(node));
+            let free = wanted < feasible && !flat.faces(node);
             *gap = if free { wanted } else { feasible };
         }
     });
@@ -224,7 +220,7 @@ pub(crate) fn extrapolated<T: Real>(
 pub(crate) fn refuse_springs<T: Real>(wall: Wall<'_, T>) -> Result<()> {
     let reason = "the energy of springs is not in the report of a solution, so that jumps could not be told from work: \
                   take a rigid wall, or none with a law that repels";
-    if let Wall::Springs(_) = wall { Err(Error::Unsuited { what: "springs", reason }) } else { Ok(()) }
+    if wall.springs().is_some() { Err(Error::Unsuited { what: "springs", reason }) } else { Ok(()) }
 }
 
 /// Refuses a wall that yields, where a state has to bear what it has borne before.

@@ -87,9 +87,10 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// The load that holds a mean gap: the mean gap itself, or a spring as stiff as the stiffest wave if nodes face no
     /// surface.
     fn holding(&self, gap: f64) -> Load {
-        match self.flat.window {
-            None => Load::Gap(gap),
-            Some(_) => Load::Spring { stiffness: self.stiffness_range().1, rest: gap },
+        if self.flat.faces_all() {
+            Load::Gap(gap)
+        } else {
+            Load::Spring { stiffness: self.stiffness_range().1, rest: gap }
         }
     }
 }
@@ -162,11 +163,11 @@ fn tension_at<T: Real, Lo: Real>(
     observe: Observer<'_>,
 ) -> Result<Option<f64>> {
     // where the law itself keeps the surfaces apart, it may hold them with no node pressed
-    let holds =
-        !descent.iterate.posed.projects() && descent.iterate.tally().traction > hardly * descent.iterate.posed.nodes();
+    let is_soft = !descent.iterate.posed.projects();
+    let holds = is_soft && descent.iterate.tally().traction > hardly * descent.iterate.posed.nodes();
     if descent.iterate.tally().contact == 0.0 && !holds {
         descent.iterate.fields.gap.nodes_mut().fill(T::lit(gap));
-    } else if !descent.iterate.posed.projects() && descent.iterate.posed.flat.window.is_none() {
+    } else if is_soft && descent.iterate.posed.flat.faces_all() {
         open_to(descent, gap);
     }
     go_on(descent, descent.iterate.posed.holding(gap), Stage::HOLD)?;

@@ -9,7 +9,6 @@ use ndarray::Array2;
 use super::descent::Descent;
 use super::posed::Posed;
 use crate::adhesion::{Neighbourhood, Touched};
-use crate::constraint::Wall;
 use crate::field::{Field, ordered};
 use crate::real::Real;
 
@@ -17,18 +16,13 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// Lets surfaces attract each other in the neighbourhood of the contacts of a gap alone, and where they still did
     /// `before`; both are on the grid of the operator.
     pub(super) fn touch(&mut self, gap: &Array2<T>, before: Option<&Array2<bool>>) {
-        let (grid, slab) = match &self.flat.window {
-            Some(window) => (*window.grid(), window.held()),
-            None => (*self.operators.state().grid(), self.operators.state().grid().slab()),
-        };
-        let mut neighbourhood = Neighbourhood::none((&grid, slab), self.flat.boundary.is_periodic());
+        let (flat, whole) = (self.flat, *self.operators.state().grid());
+        let mut neighbourhood =
+            Neighbourhood::none((flat.grid(&whole), flat.held(&whole)), flat.boundary.is_periodic());
         self.mark_contacts(gap, &mut neighbourhood);
         neighbourhood.grow();
         if let Some(before) = before {
-            neighbourhood.add(&match &self.flat.window {
-                Some(window) => window.cut(before, false),
-                None => Field::of(before),
-            });
+            neighbourhood.add(&flat.cut(before, false));
         }
         (self.touched, self.spreads) = (Some(Touched { law: self.adhesion, neighbourhood }), true);
     }
@@ -38,8 +32,8 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         let (wall, first) = (self.constraint.wall(), neighbourhood.first_node());
         let mark = |gaps: &[T], contacts: &mut [bool], first: usize| {
             for ((contact, &gap), node) in contacts.iter_mut().zip(gaps).zip(first..) {
-                let springs = || matches!(wall, Wall::Springs(springs) if springs.traction(node, gap) < T::zero());
-                *contact = gap <= T::zero() || springs();
+                let press = || wall.springs().is_some_and(|springs| springs.traction(node, gap) < T::zero());
+                *contact = gap <= T::zero() || press();
             }
         };
         let (gaps, contacts) = (ordered(gap.view()), neighbourhood.contact.nodes_mut());
@@ -81,10 +75,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         if !hints.touches() {
             return None;
         }
-        let touched = self.near().map(|near| match &self.flat.window {
-            Some(window) => window.place(&near, false),
-            None => near,
-        });
+        let touched = self.near().map(|near| self.flat.place(near, false));
         let mut touched = touched.iter().flat_map(|touched| touched.nodes());
         Some(gap.map(|&gap| *touched.next().unwrap_or(&true) && gap < hints.range))
     }

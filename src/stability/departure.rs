@@ -91,7 +91,7 @@ impl<T: Real> Stability<T> {
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
         }
-        if problem.flat.window.is_some() && from.report.approach.is_none() {
+        if !problem.flat.faces_all() && from.report.approach.is_none() {
             let reason = "the energy of a load on a periodic surface with absent nodes is not in its report";
             return Err(Error::Unsuited { what: "departure", reason });
         }

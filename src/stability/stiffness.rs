@@ -4,7 +4,7 @@ use super::edge::EdgeError;
 use super::hessian::Hessian;
 use super::tangent::Tangent;
 use super::{Near, check_gap, slopes};
-use crate::constraint::{ContactConstraint, Projection, Wall};
+use crate::constraint::{ContactConstraint, Projection};
 use crate::error::{Error, Result};
 use crate::field::Field;
 use crate::problem::{Load, Problem, ProblemMut, smoothed_law};
@@ -130,19 +130,18 @@ impl ContactStiffness {
                 edge: None,
             });
         }
-        let window = flat.window.as_ref();
         let smoothed = smoothed_law(&*operator, law);
         let followed = smoothed.as_deref().unwrap_or(law);
         let near = Near::Of(solution.touched.as_ref());
-        let slopes = slopes(&solution.gap, (followed, constraint), near, (&*operator, window))?;
-        let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
+        let slopes = slopes(&solution.gap, (followed, constraint), near, (&*operator, flat))?;
+        let rigid = constraint.wall().is_rigid() && flat.faces_all();
         let (is_adhesive, of_grid) = (!law.hints().zero, law.hints().of_grid);
         let at_edge = rigid && solution.report.contact_nodes > 0 && !of_grid;
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);
         let gap = &solution.gap;
-        let start = window.map_or_else(|| Field::of(gap), |window| Field::of(window.extend(gap.view())));
+        let start = flat.extend(gap);
         let least = least_energy(&mut hessian, start, (tolerance, at_edge))?;
         let LeastEnergy { energy: on_grid, relative_error, tangent } = least;
         let operator_applications = hessian.applications();

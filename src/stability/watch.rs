@@ -11,7 +11,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::Field;
 use crate::grid::Grid;
-use crate::problem::{Load, Window};
+use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 use crate::solver::{Least, Potential, bounded};
 
@@ -62,13 +62,13 @@ impl<T: Real> Watch<T> {
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
-        (gap, near, window): (&Array2<T>, Near<'_>, Option<&Window>),
+        (gap, near, flat): (&Array2<T>, Near<'_>, &PressedFlat<T>),
         load: Load,
     ) -> Result<Option<Saddle>> {
         if Potential::new(law, constraint, None).is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, (law, constraint), near, (&*operator, window))?;
+        let slopes = slopes(gap, (law, constraint), near, (&*operator, flat))?;
         let mut hessian = Hessian::new(operator, slopes, load);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
@@ -80,10 +80,7 @@ impl<T: Real> Watch<T> {
         hessian.project(&mut start);
         hessian.weigh(&mut start);
         if let Some(mode) = self.mode.take() {
-            let mut mode = Field::of(match window {
-                Some(window) => window.extend(mode.view()),
-                None => mode,
-            });
+            let mut mode = flat.extend(mode);
             hessian.project(&mut mode);
             normalise(&mut hessian, &mut mode);
             normalise(&mut hessian, &mut start);
@@ -101,10 +98,7 @@ impl<T: Real> Watch<T> {
             })?;
         }
         let saddle = unstable(&pair).then_some(Saddle { eigenvalue: pair.value });
-        self.mode = Some(match window {
-            Some(window) => window.crop(&pair.vector, T::zero()),
-            None => pair.vector.into_array(),
-        });
+        self.mode = Some(flat.crop(pair.vector.into_array(), T::zero()).into_owned());
         Ok(saddle)
     }
 

@@ -56,7 +56,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
         let loaded = self.iterate.posed.nearness > Nearness::Afar
             || self.iterate.posed.is_gap_controlled()
             || (self.iterations >= UNSETTLED && self.proof().load_error() <= LOADED);
-        loaded && (self.iterate.posed.law().hints().zero || self.proof().relative_error() <= SETTLED)
+        loaded && (!self.iterate.posed.adheres() || self.proof().relative_error() <= SETTLED)
     }
 
     /// Renews the contact map now and then, from the nodes outside of the working set or those that springs hold.
@@ -64,7 +64,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
         let (settled, projects, held) =
             (self.is_settled(), self.iterate.posed.projects(), self.iterate.posed.is_gap_controlled());
         let (stiffness, range) = (self.iterate.posed.flat.stiffness, self.iterate.posed.stiffness_range());
-        let (spring, window) = (self.iterate.posed.load.stiffness(), self.iterate.posed.flat.window.as_ref());
+        let (spring, flat) = (self.iterate.posed.load.stiffness(), self.iterate.posed.flat);
         let iteration = self.iterations;
         let Some(coarse) = self.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else {
             return;
@@ -74,7 +74,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
             coarse.renew(iteration, &self.iterate.fields.residual, touches, (stiffness, spring), range, held);
         } else {
             let rest = self.iterate.posed.law().hints().rest.unwrap_or_else(T::zero);
-            let touches = |node, gap| gap <= rest && window.is_none_or(|window| window.faces(node));
+            let touches = |node, gap| gap <= rest && flat.faces(node);
             coarse.renew(iteration, &self.iterate.fields.gap, touches, (stiffness, spring), range, held);
         }
     }

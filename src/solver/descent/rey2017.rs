@@ -9,6 +9,7 @@ use crate::problem::Load;
 use crate::real::{Real, cast};
 use crate::solver::driver::Observer;
 use crate::solver::passes::Fields;
+use crate::solver::posed::Posed;
 
 /// The iterations between two certificates, which the algorithm needs for the report only.
 const CERTIFY: usize = 10;
@@ -66,11 +67,16 @@ pub(super) fn descend<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, obser
     }
 }
 
+/// Whether a gap is one of nodes apart, which all nodes are if steps do not end where the surfaces touch.
+fn apart<T: Real, Lo: Real>(posed: &Posed<'_, T, Lo>) -> impl Fn(T) -> bool + Copy + Sync + use<T, Lo> {
+    let projects = posed.projects();
+    move |gap| !projects || gap > T::zero()
+}
+
 /// One pass of the loop: an operator application for the direction, another after clipping or release. `false` if
 /// no step is possible.
 fn step<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<bool> {
-    let projects = descent.iterate.posed.projects();
-    let apart = move |gap: T| !projects || gap > T::zero();
+    let apart = apart(&descent.iterate.posed);
 
     let Fields { reducer, gap, residual, .. } = &mut descent.iterate.fields;
     let norm = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
@@ -115,8 +121,7 @@ fn step<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<bool> {
 
 /// The length of a step along the direction, which goes uphill by `slope`; none without bounds.
 fn length<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, slope: f64) -> Result<Option<f64>> {
-    let projects = descent.iterate.posed.projects();
-    let apart = move |gap: T| !projects || gap > T::zero();
+    let apart = apart(&descent.iterate.posed);
     let Fields { change, preconditioned: response, .. } = &mut descent.iterate.fields;
     descent.iterate.posed.operators.corrections().pressure(change.view(), response.view_mut())?;
     descent.iterate.applied();
@@ -167,13 +172,12 @@ fn advance<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, length: T) -> [f
 
 /// The direction t = r' + `conjugate` t where the surfaces are apart; returns ⟨r', t⟩.
 fn turn<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, conjugate: f64) -> f64 {
-    let projects = descent.iterate.posed.projects();
-    let conjugate = Lo::lit(conjugate);
+    let (apart, conjugate) = (apart(&descent.iterate.posed), Lo::lit(conjugate));
     let Fields { reducer, gap, residual, change, .. } = &mut descent.iterate.fields;
     reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
         let mut slope = 0.0;
         for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
-            *t = if !projects || gap > T::zero() {
+            *t = if apart(gap) {
                 r + if conjugate > Lo::zero() { conjugate * *t } else { Lo::zero() }
             } else {
                 Lo::zero()

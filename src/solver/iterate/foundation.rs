@@ -32,7 +32,7 @@ impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
         if stiffest <= 0.0 {
             // nothing resists before a node touches: a step is as long as the gap
             let gap = self.mean_gap();
-            let falls = gap > 0.0 && self.posed.law().hints().zero && self.given > 0.0;
+            let falls = gap > 0.0 && !self.posed.adheres() && self.given > 0.0;
             let contact = if falls { self.foundation().min(self.given / gap) } else { self.foundation() };
             return contact + self.posed.load.stiffness();
         }

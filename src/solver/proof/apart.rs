@@ -14,7 +14,7 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     pub(in crate::solver) fn is_apart(&self) -> bool {
         let bears =
             self.iterate.posed.is_gap_controlled() || self.iterate.given() > 0.0 || self.iterate.tally().contact > 0.0;
-        !self.iterate.posed.law().hints().zero && !bears && (self.has_let_go() || self.flies_apart())
+        self.iterate.posed.adheres() && !bears && (self.has_let_go() || self.flies_apart())
     }
 
     /// The tension of the load in all.

@@ -1,7 +1,6 @@
 //! The scale of a certified error: the energy that a certificate is compared with, and the certificate of rounding.
 
 use super::{NEAR_FLOOR, Proof};
-use crate::constraint::Wall;
 use crate::real::Real;
 
 /// The scale of a certificate, and the floor under it, both as the mean of u·p.
@@ -62,8 +61,8 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     fn energy_of_flats(&self) -> f64 {
         let (epsilon, softest, traction) =
             (T::epsilon().widen(), self.iterate.posed.stiffness_range().0, self.iterate.mean_traction());
-        let lifted = match self.iterate.posed.wall() {
-            Wall::None => self.iterate.mean_gap().abs().max(self.iterate.posed.law().hints().range.widen()),
+        let lifted = match self.iterate.posed.has_no_wall() {
+            true => self.iterate.mean_gap().abs().max(self.iterate.posed.law().hints().range.widen()),
             _ if self.iterate.tally().contact > 0.0 => 0.0,
             _ => self.iterate.mean_gap(),
         };
