@@ -2,6 +2,11 @@
 //!
 //! [`Scene::new`] draws from all of them, [`Scene::of`] from those that [`Features`] name.
 
+mod features;
+mod law;
+mod layers;
+mod relief;
+
 use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
@@ -14,6 +19,12 @@ use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
+
+pub use features::Features;
+pub use law::Law;
+use law::law;
+pub use layers::Layered;
+use relief::{grid, punch, relief};
 
 use super::dense::{Dense, Held};
 
@@ -60,213 +71,6 @@ pub enum Precision {
 pub enum Body {
     Periodic,
     Free,
-}
-
-/// What scenes are drawn from.
-#[derive(Clone, Copy, Debug)]
-pub struct Features {
-    pub laws: &'static [Kind],
-    pub constraints: &'static [Constraint],
-    pub precisions: &'static [Precision],
-    pub bodies: &'static [Body],
-    /// whether some have absent nodes
-    pub absent: bool,
-    /// whether some have bodies in layers, the weak laws of stiff bodies, and no load
-    pub more: bool,
-}
-
-impl Features {
-    pub const ALL: Self = Self {
-        laws: &[
-            Kind::None,
-            Kind::Exponential,
-            Kind::MaugisDugdale,
-            Kind::LennardJones,
-            Kind::Morse,
-            Kind::PowerLaw,
-            Kind::Table,
-            Kind::CutOff,
-            Kind::Varying,
-        ],
-        constraints: &[Constraint::Hard, Constraint::Paper, Constraint::Penalty, Constraint::Uzawa, Constraint::None],
-        precisions: &[Precision::Single, Precision::Double, Precision::Mixed],
-        bodies: &[Body::Periodic, Body::Free],
-        absent: true,
-        more: false,
-    };
-
-    /// Hard walls in a periodic cell without adhesion: one solution, convex.
-    pub const HARD: Self = Self {
-        laws: &[Kind::None],
-        constraints: &[Constraint::Hard],
-        bodies: &[Body::Periodic],
-        absent: false,
-        ..Self::ALL
-    };
-
-    /// The law that has the range of the grid, on every body and at every wall.
-    pub const JKR: Self = Self {
-        laws: &[Kind::Jkr],
-        constraints: &[Constraint::Hard, Constraint::Penalty, Constraint::Uzawa],
-        ..Self::ALL
-    };
-
-    /// What [`Features::ALL`] lacks, besides what it has.
-    pub const MORE: Self = Self {
-        constraints: &[
-            Constraint::Hard,
-            Constraint::Hardness,
-            Constraint::Penalty,
-            Constraint::Uzawa,
-            Constraint::Paper,
-            Constraint::None,
-        ],
-        more: true,
-        ..Self::ALL
-    };
-
-    /// The combinations that there are, as often as they are to be drawn: most of hard walls.
-    fn combinations(&self) -> Vec<(Kind, Constraint, Precision)> {
-        let times = |law: Kind, constraint: Constraint| match (law, constraint) {
-            (Kind::None, Constraint::Hard | Constraint::Hardness) => 8,
-            (_, Constraint::Hard | Constraint::Hardness) => 3,
-            (Kind::None, Constraint::None) => 0,
-            (Kind::None, _) => 1,
-            (_, Constraint::Paper) => 0,
-            (Kind::LennardJones | Kind::Morse | Kind::CutOff | Kind::Varying, Constraint::None) => 2,
-            (_, Constraint::None) => 0,
-            _ => 1,
-        };
-        let pairs = self.constraints.iter().flat_map(|&constraint| self.laws.iter().map(move |&law| (law, constraint)));
-        let repeated = pairs.flat_map(|pair| std::iter::repeat_n(pair, times(pair.0, pair.1)));
-        let with = |(law, constraint)| self.precisions.iter().map(move |&precision| (law, constraint, precision));
-        repeated.flat_map(with).collect()
-    }
-}
-
-/// An adhesion law: of what kind, with a wall at its gap of rest or none.
-#[derive(Clone, Debug)]
-pub struct Law {
-    pub kind: Kind,
-    /// that which is cut off, or varies
-    pub base: Kind,
-    pub work: f64,
-    pub range: f64,
-    pub wall: bool,
-    pub cut_off: Option<f64>,
-    /// the works of adhesion over the work of adhesion of the law
-    pub shares: Option<Array2<f64>>,
-}
-
-impl Law {
-    pub fn is_none(&self) -> bool {
-        self.kind == Kind::None
-    }
-
-    /// The law at a node as a function of the gap alone; it counts for the work of adhesion times [`Self::share`].
-    pub fn of_gap<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
-        if self.base == Kind::Jkr {
-            let compliance = (self.range / self.range_on(1.0)).powi(2);
-            return Box::new(Jkr::new(self.work).unwrap().on_nodes(T::lit(compliance)).unwrap());
-        }
-        Self { shares: None, ..self.clone() }.boxed()
-    }
-
-    /// The range of the law with a range set by the grid, on nodes of this compliance.
-    fn range_on(&self, compliance: f64) -> f64 {
-        let law: Arc<dyn AdhesionLaw<f64>> = Jkr::new(self.work).unwrap().on_nodes(compliance).unwrap();
-        law.hints().range
-    }
-
-    pub fn share(&self, node: usize) -> f64 {
-        self.shares.as_ref().map_or(1.0, |shares| shares.as_slice().expect("in rows")[node])
-    }
-
-    /// Whether it is zero beyond some gap.
-    pub fn ends(&self) -> bool {
-        self.cut_off.is_some() || matches!(self.base, Kind::MaugisDugdale | Kind::Table)
-    }
-
-    /// The gap at which the law alone holds the surfaces apart.
-    pub fn rest(&self) -> f64 {
-        if self.base == Kind::LennardJones && !self.wall { self.range } else { 0.0 }
-    }
-
-    pub fn boxed<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
-        let (w, range) = (self.work, self.range);
-        match self.base {
-            Kind::Exponential => self.changed(Exponential::new(w, range).unwrap()),
-            Kind::MaugisDugdale => self.changed(MaugisDugdale::new(w, range).unwrap()),
-            Kind::LennardJones if self.wall => self.changed(LennardJones::new(w, range).unwrap().cut()),
-            Kind::LennardJones => self.changed(LennardJones::new(w, range).unwrap()),
-            Kind::Morse => self.changed(Morse::new(w, range).unwrap()),
-            Kind::Jkr => self.changed(Jkr::new(w).unwrap()),
-            Kind::PowerLaw => self.changed(PowerLaw::new(w, range, 3.0).unwrap()),
-            Kind::Table => {
-                let points = [(0.0, 1.0), (0.5, 1.2), (1.0, 0.5), (2.0, 0.1), (3.0, 0.0)];
-                let gaps = points.map(|(gap, _)| gap * range);
-                self.changed(Tabulated::new(&gaps, &points.map(|(_, traction)| traction * w / (1.6 * range))).unwrap())
-            }
-            _ => Box::new(NoAdhesion),
-        }
-    }
-
-    fn changed<T: Real, L>(&self, law: L) -> Box<dyn AdhesionLaw<T>>
-    where
-        L: AdhesionLaw<T> + AdhesionLaw<f64> + Clone + 'static,
-    {
-        let works = self.shares.as_ref().map(|shares| shares * AdhesionLaw::<f64>::hints(&law).work_of_adhesion);
-        match (self.cut_off, works) {
-            (None, None) => Box::new(law),
-            (None, Some(works)) => Box::new(Varying::new(law, works.view()).unwrap()),
-            (Some(end), None) => Box::new(CutOff::new(law, end).unwrap()),
-            (Some(end), Some(works)) => Box::new(CutOff::new(Varying::new(law, works.view()).unwrap(), end).unwrap()),
-        }
-    }
-}
-
-/// An elastic body in layers.
-#[derive(Clone, Copy, Debug)]
-pub enum Layered {
-    Layer(Layer),
-    Coating(Coating),
-    /// two bodies that both deform
-    Pair(Series<Coating, Series<Layer, HalfSpace>>),
-}
-
-impl Layered {
-    fn draw(random: &mut ChaCha8Rng, side: f64, modulus: f64) -> Self {
-        let material = |random: &mut ChaCha8Rng| {
-            let poisson = random.random_range(-0.5_f64..0.6).min(0.5);
-            Material::new(modulus * power(random, -1.5, 1.5), poisson).unwrap()
-        };
-        let [coat, substrate] = std::array::from_fn(|_| material(random));
-        let [thickness, other] = std::array::from_fn(|_| side * power(random, -2.5, 0.5));
-        let base = if random.random_bool(0.5) { Base::Bonded } else { Base::Sliding };
-        let (layer, coating) = (Layer::new(substrate, other, base), Coating::new(coat, thickness, substrate));
-        match random.random_range(0..3) {
-            0 => Self::Layer(layer.unwrap()),
-            1 => Self::Coating(coating.unwrap()),
-            _ => Self::Pair(Series(coating.unwrap(), Series(layer.unwrap(), HalfSpace::new(modulus).unwrap()))),
-        }
-    }
-
-    fn body(&self) -> &dyn elastic::Body {
-        match self {
-            Self::Layer(layer) => layer,
-            Self::Coating(coating) => coating,
-            Self::Pair(pair) => pair,
-        }
-    }
-}
-
-impl elastic::Body for Layered {
-    fn stiffness(&self, qx: f64, qy: f64) -> f64 {
-        self.body().stiffness(qx, qy)
-    }
-    fn modulus(&self) -> f64 {
-        self.body().modulus()
-    }
 }
 
 /// A scene: all that a solve is told.
@@ -540,7 +344,9 @@ impl Scene {
         let faces: Vec<bool> = self.heights.iter().map(|h| !h.is_nan()).collect();
         let (shape, lengths) = (self.grid.shape(), self.grid.lengths());
         match (self.body, self.layers) {
-            (Body::Periodic, Some(layers)) => Dense::of(shape, lengths, |qx, qy| layers.body().stiffness(qx, qy)),
+            (Body::Periodic, Some(layers)) => {
+                Dense::of(shape, lengths, |qx, qy| elastic::Body::stiffness(layers, qx, qy))
+            }
             (Body::Periodic, None) => Dense::new(shape, lengths, self.modulus),
             (Body::Free, _) => Dense::free(&self.grid, self.modulus),
         }
@@ -585,92 +391,4 @@ impl Scene {
 
 fn power(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     10_f64.powf(random.random_range(low..high))
-}
-
-/// Lines, strips, primes, and squares of up to 21² nodes; cells and sides of all proportions.
-fn grid(random: &mut ChaCha8Rng, body: Body) -> Grid {
-    let least = if body == Body::Free { 2 } else { 1 };
-    let shape = match random.random_range(0..20) {
-        0 => (least, random.random_range(least..40)),
-        1 => (random.random_range(least..160), least),
-        2 => (random.random_range(30..80), random.random_range(2..4)),
-        3 => (random.random_range(12..22), random.random_range(12..22)),
-        _ => (random.random_range(least..12), random.random_range(least..12)),
-    };
-    let lx = power(random, -9.0, 3.0);
-    let aspect = power(random, -1.5, 1.5);
-    // windows of cells that are not too far from square
-    let aspect = if body == Body::Free { aspect.powf(0.5) * shape.1 as f64 / shape.0 as f64 } else { aspect };
-    Grid::new(shape, (lx, lx * aspect)).unwrap()
-}
-
-/// Heights of some unit, by name.
-fn relief(random: &mut ChaCha8Rng, (nx, ny): (usize, usize)) -> (&'static str, Array2<f64>) {
-    let names = ["noise", "smooth", "levels", "spike", "step", "board", "flat", "sphere"];
-    let name = names[[0, 0, 0, 1, 1, 1, 2, 2, 3, 4, 5, 6, 7, 7][random.random_range(0..14)]];
-    let phases: [f64; 3] = std::array::from_fn(|_| random.random_range(0.0..7.0));
-    let wave = |i: usize, n: usize, phase: f64| (TAU * i as f64 / n as f64 + phase).cos();
-    let from_centre = |i: usize, n: usize| (i as f64 - 0.5 * n as f64) / n as f64;
-    let heights = Array2::from_shape_fn((nx, ny), |(i, j)| {
-        let (noise, level) = (random.random_range(0.0..1.0), f64::from(random.random_range(0..3_u8)));
-        match name {
-            "noise" => noise,
-            "smooth" => wave(i, nx, phases[0]) + wave(j, ny, phases[1]) + wave(2 * i + j, nx, phases[2]),
-            "levels" => 0.5 * level,
-            "spike" => f64::from(u8::from((i, j) == (nx / 2, ny / 3))),
-            "step" => f64::from(u8::from(2 * i < nx)),
-            "board" => f64::from(u8::from((i + j) % 2 == 0)),
-            "sphere" => -2.0 * (from_centre(i, nx).powi(2) + from_centre(j, ny).powi(2)),
-            _ => 0.25,
-        }
-    });
-    // its own mirror image
-    let mirrored = random.random_bool(0.15);
-    let mirror = |(i, j): (usize, usize)| heights[[i.min((nx - i) % nx), j]];
-    (name, if mirrored { Array2::from_shape_fn((nx, ny), mirror) } else { heights })
-}
-
-/// Takes the surface away at some nodes: here and there, or outside of an ellipse.
-fn punch(random: &mut ChaCha8Rng, heights: &mut Array2<f64>) {
-    let (share, round) = (random.random_range(0.02..0.5), random.random_bool(0.4));
-    let (nx, ny) = heights.dim();
-    let outside = |i: usize, n: usize| ((2 * i + 1) as f64 / n as f64 - 1.0).powi(2);
-    let kept = (random.random_range(0..nx), random.random_range(0..ny));
-    for ((i, j), height) in heights.indexed_iter_mut() {
-        let lost = if round { outside(i, nx) + outside(j, ny) > 1.0 } else { random.random_bool(share) };
-        if lost && (i, j) != kept {
-            *height = f64::NAN;
-        }
-    }
-}
-
-/// A law of some range, as strong as the stiffness of waves of some nodes lets it be felt.
-fn law(
-    random: &mut ChaCha8Rng,
-    kind: Kind,
-    constraint: Constraint,
-    shape: (usize, usize),
-    (range, stiff): (f64, f64),
-) -> Law {
-    let bases = match constraint {
-        Constraint::None => &[Kind::LennardJones, Kind::Morse][..],
-        _ => &Features::ALL.laws[1..7],
-    };
-    let base = match kind {
-        Kind::CutOff | Kind::Varying => bases[random.random_range(0..bases.len())],
-        kind => kind,
-    };
-    let work = (power(random, -2.0, 0.5) * range).powi(2) * stiff;
-    let cut = kind == Kind::CutOff || kind == Kind::Varying && random.random_bool(0.3);
-    let end = range * random.random_range(4.0..10.0);
-    // all of it nowhere only with a wall
-    let least: f64 = if constraint == Constraint::None { 0.05 } else { 0.0 };
-    let patches = random.random_bool(0.3);
-    let mut shares = Array2::from_shape_simple_fn(shape, || {
-        let share: f64 = random.random_range(0.0..2.0);
-        if patches { least.max(f64::from(u8::from(share > 1.0))) } else { least.max(share) }
-    });
-    shares[[0, 0]] = 1.0;
-    let (cut_off, shares) = (cut.then_some(end), (kind == Kind::Varying).then_some(shares));
-    Law { kind, base, work, range, wall: constraint != Constraint::None, cut_off, shares }
 }
