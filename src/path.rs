@@ -151,8 +151,7 @@ impl<T: Real> Path<T> {
         }
         Error::positive("imbalance", settings.imbalance)?;
         if let Some(value) = settings.smallest_step.filter(|share| !(*share > 0.0 && *share < 1.0)) {
-            let name = "smallest step";
-            return Err(Error::Value { name, value, requirement: "positive and below 1" });
+            return Err(Error::Value { name: "smallest step", value, requirement: "positive and below 1" });
         }
         Ok(Self {
             legs: loads.into_iter().collect(),
@@ -197,8 +196,7 @@ impl<T: Real> Path<T> {
         gaps.chain(&mut self.depth).chain(&mut self.watch.mode)
     }
 
-    /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
-    /// grid of the operator: processes that share a grid gather these as they do the fields.
+    /// Where surfaces have not parted, on the grid of the operator: processes that share a grid gather these, too.
     #[doc(hidden)]
     pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
         self.places.iter_mut().chain(&mut self.ahead).filter_map(|place| place.not_parted.as_mut())
@@ -207,9 +205,8 @@ impl<T: Real> Path<T> {
     /// Refuses loads that the problem does not have, as the first step does.
     ///
     /// # Errors
-    /// [`Error::Value`] for a load that is not finite, or a negative mean gap; [`Error::Unsuited`] for a load that the
-    /// problem does not have, and a periodic surface with absent nodes; [`Error::Unsuited`] for springs, and for a law that
-    /// is not made for the wall.
+    /// [`Error::Value`] for a load that is not finite, or a negative mean gap; [`Error::Unsuited`] for a load or a law that
+    /// does not fit, springs, and a periodic surface with absent nodes.
     #[doc(hidden)]
     pub fn check(&self, solver: &Solver<dyn ContactConstraint<T>>, problem: &Problem<T>) -> Result<()> {
         let (law, flat, wall) = (problem.law_on_grid(), &problem.flat, solver.constraint.wall());

@@ -2,6 +2,9 @@
 //! `.ci/mpi`, under `mpiexec`; by itself it is one process. With the argument `quick` it runs a part of them, some on
 //! three processes alone.
 
+mod laws;
+mod paths;
+
 use std::fmt::Debug;
 use std::ops::ControlFlow;
 
@@ -11,17 +14,25 @@ use asperity::ndarray::{Array2, Axis, Slice};
 use asperity::solver::Iteration;
 use asperity::*;
 
+use laws::{
+    absent_nodes_are_shared, laws_that_vary_are_shared, other_symbols_are_shared,
+    springs_under_free_half_spaces_are_shared,
+};
+use paths::{equilibria_are_judged_alike, paths_are_shared};
+
 type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 
 /// The bits of a number.
 trait Bits: Real {
     fn bits(self) -> u64;
 }
+
 impl Bits for f32 {
     fn bits(self) -> u64 {
         u64::from(self.to_bits())
     }
 }
+
 impl Bits for f64 {
     fn bits(self) -> u64 {
         self.to_bits()
@@ -275,185 +286,6 @@ fn compare<T: Bits>(
     Ok(of_all)
 }
 
-fn laws_that_vary_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Result<()> {
-    let work = |x: f64, y: f64| if (9.0 * x).sin() * (7.0 * y).cos() > 0.2 { 1e-4 } else { 2e-5 };
-    // each process has the whole map
-    let law = |grid: &Grid| Varying::new(Exponential::new(1e-4, 2e-3)?, grid.alone().sample(work).view());
-    let control = Control::MeanPressure(2e-3);
-    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
-    let shared = world.share(alone)?;
-    let found = compare::<T>(world, "varying law", alone, |grid| {
-        let mut problem = Problem::new(&rough(grid)?, Westergaard::<T>::new(grid, 1.0)?, law(&grid)?)?;
-        let solution = Solver::default().solve(&mut problem, control)?;
-        let statistics = contact::ContactStatistics::of(&solution)?;
-        assert_eq!(statistics.patches.len(), 2);
-        Ok((solution, statistics))
-    })?;
-    let regions = found.whole().regions();
-    assert_eq!(found.regions(), regions.slice_axis(Axis(0), Slice::from(shared.rows())));
-    // the jumps of the law are smoothed, and it is made coarser
-    let jumps = |grid: &Grid| Varying::new(MaugisDugdale::new(1e-4, 2e-3)?, grid.alone().sample(work).view());
-    compare::<T>(world, "varying law with jumps, nested", alone, |grid| {
-        let half_space = |grid: Grid| Westergaard::<T>::new(grid, 1.0);
-        let (nested, law) = (Nested::default().coarsest(32), jumps(&grid)?);
-        let nested = nested.solve(&mut Solver::default(), &rough(grid)?, half_space, law, control)?;
-        let statistics = contact::ContactStatistics::of(&nested.solution)?;
-        Ok((nested.solution, statistics))
-    })?;
-    compare::<T>(world, "varying law under a free half-space", alone, |grid| {
-        let mut problem = Problem::new(&rough(grid)?, Boussinesq::<T>::new(grid, 1.0)?, law(&grid)?)?;
-        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(5e-3))?;
-        let statistics = contact::ContactStatistics::of(&solution)?;
-        Ok((solution, statistics))
-    })?;
-    Ok(())
-}
-
-/// A rough surface with holes: some nodes, whole rows, and an edge.
-fn perforated(grid: Grid) -> Result<Surface> {
-    let (holes, rows) = (grid.sample(|x, y| (23.0 * x).sin() * (31.0 * y).sin()), grid.rows().start);
-    let absent = Array2::from_shape_fn(holes.dim(), |(i, j)| {
-        holes[[i, j]] > 0.7 || (100..103).contains(&(rows + i)) || rows + i >= 250 || j < 3
-    });
-    rough(grid)?.with_absent(absent)
-}
-
-fn absent_nodes_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Result<()> {
-    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
-    let shared = world.share(alone)?;
-    let (whole, slab) = (perforated(alone)?, perforated(shared)?);
-    assert_eq!(slab.absent_nodes(), whole.absent_nodes());
-    assert_eq!(*slab.whole(), whole);
-    let periodic = compare::<T>(world, "absent nodes", alone, |grid| {
-        let mut problem = Problem::new(&perforated(grid)?, Westergaard::<T>::new(grid, 1.0)?, NoAdhesion)?;
-        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.02))?;
-        assert!(solution.report.absent_nodes > 1000);
-        let statistics = contact::ContactStatistics::of(&solution)?;
-        Ok((solution, statistics))
-    })?;
-    assert!(slab.absent_nodes() == periodic.report.absent_nodes);
-    compare::<T>(world, "absent nodes, from a start", alone, |grid| {
-        let mut problem = Problem::new(&perforated(grid)?, Westergaard::<T>::new(grid, 1.0)?, NoAdhesion)?;
-        let mut gap = grid.sample(|x, y| 0.01 * (1.0 + (x - y).sin())).mapv(T::lit);
-        if let Some(absent) = perforated(grid)?.absent() {
-            gap.zip_mut_with(absent, |gap, &absent| *gap = if absent { T::nan() } else { *gap });
-        }
-        let observe = |_: &Iteration| ControlFlow::Continue(());
-        let start = Start::From(&gap);
-        let solution = Solver::default().solve_with(&mut problem, Control::MeanPressure(0.02), start, observe)?;
-        let statistics = contact::ContactStatistics::of(&solution)?;
-        Ok((solution, statistics))
-    })?;
-    let law = Exponential::new(1e-5, 1e-3)?;
-    compare::<T>(world, "absent nodes under a free half-space, nested", alone, |grid| {
-        let nested = Nested::default().coarsest(32);
-        let half_space = |grid: Grid| Boussinesq::<T>::new(grid, 1.0);
-        let control = Control::MeanPressure(0.01);
-        let nested = nested.solve(&mut Solver::default(), &perforated(grid)?, half_space, law, control)?;
-        let statistics = contact::ContactStatistics::of(&nested.solution)?;
-        Ok((nested.solution, statistics))
-    })?;
-    Ok(())
-}
-
-fn springs_under_free_half_spaces_are_shared(world: &World, shape: (usize, usize)) -> Result<()> {
-    fn solve<C>(grid: Grid, constraint: C) -> Result<(Solution<f64>, contact::ContactStatistics)>
-    where
-        C: ContactConstraint<f64> + 'static,
-    {
-        let mut problem = Problem::new(&perforated(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-        let mut solver = Solver { settings: Settings::default().tolerance(1e-3), constraint };
-        let mut solution = solver.solve(&mut problem, Control::MeanPressure(0.01))?;
-        let statistics = contact::ContactStatistics::of(&solution)?;
-        let test = stability::StabilityTest::under(Control::Force(0.01)).max_iterations(5);
-        let stability = test.run_with(&mut problem, &solver.constraint, &solution)?;
-        // the mode is compared in the place of the pressure
-        solution.pressure = stability.mode;
-        Ok((solution, statistics))
-    }
-    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
-    compare(world, "penalty under a free half-space", alone, |grid| solve(grid, Penalty::new(500.0)?))?;
-    compare(world, "Uzawa under a free half-space", alone, |grid| solve(grid, Uzawa::new(500.0)?))?;
-    Ok(())
-}
-
-/// The stability, the stiffness and a departure, and a load for a contact fraction.
-fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<()> {
-    let law = Exponential::new(1e-4, 2e-3)?;
-    let alone = Grid::new(shape, (1.0, shape.1 as f64 / shape.0 as f64))?;
-    let shared = world.share(alone)?;
-    let judge = |grid: Grid| {
-        let mut problem = Problem::new(&rough(grid)?, Westergaard::<f64>::new(grid, 1.0)?, law)?;
-        let (mut solver, control) = (Solver::default(), Control::MeanPressure(2e-3));
-        let solution = solver.solve(&mut problem, control)?;
-        let test = stability::StabilityTest::default().max_iterations(30);
-        let stability = test.run(&mut problem, &solution)?;
-        let left = stability.leave(&mut solver, &mut problem, &solution, |_| ControlFlow::Continue(()))?;
-        let stiffness = stability::ContactStiffness::of(&mut problem, &solution)?;
-        let mut bare = Problem::new(&rough(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-        let found = ContactSearch::default().at(&mut solver, &mut bare, 0.05)?;
-        let free = stability::ContactStiffness::of(&mut bare, &found.solution)?;
-        Ok::<_, Error>((stability, left, (stiffness, free), found))
-    };
-    let ((of_one, left, stiffness, found), (of_all, left_by_all, shared_stiffness, found_by_all)) =
-        (judge(alone)?, judge(shared)?);
-    same("mode", &shared, &of_all.mode, &of_one.mode);
-    let figures = |s: &stability::Stability<f64>| {
-        let numbers = [s.eigenvalue, s.residual, s.lower_bound, s.error_bound.unwrap_or_default()].map(f64::to_bits);
-        (s.verdict, numbers, s.operator_applications, s.bound_applications)
-    };
-    assert_eq!(figures(&of_all), figures(&of_one));
-    assert!(of_one.operator_applications > 10);
-    let (Some(left), Some(left_by_all)) = (left, left_by_all) else { panic!("there is a mode") };
-    same_solutions("departure", &shared, &left_by_all.solution, &left.solution);
-    let figures = |d: &stability::Departure<f64>| [d.energy_drop, d.distance, d.direction].map(f64::to_bits);
-    assert_eq!(figures(&left_by_all), figures(&left));
-    assert_eq!(shared_stiffness, stiffness);
-    assert!(stiffness.0.operator_applications > 5 && stiffness.0.edge.is_some());
-    same_solutions("contact fraction", &shared, &found_by_all.solution, &found.solution);
-    assert_eq!(
-        (found_by_all.solution.report.control, found_by_all.solves),
-        (found.solution.report.control, found.solves)
-    );
-    say(
-        world,
-        &format!("{} by {} applications, stiffness, contact fraction", of_one.verdict, of_one.operator_applications),
-    );
-    Ok(())
-}
-
-fn paths_are_shared(world: &World) -> Result<()> {
-    use path::{Path, PathSettings};
-    let law = Exponential::new(1e-3, 4e-3)?;
-    let legs = [0.03, 0.012].map(Control::MeanGap);
-    let settings = PathSettings::default().steps(4).smallest_step(0.02);
-    let alone = Grid::new((300, 256), (1.0, 1.0))?;
-    let shared = world.share(alone)?;
-    let follow = |grid: Grid| {
-        let surface = Surface::wave_2d(grid, 0.02, 1)?;
-        let problem = || Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law);
-        let (mut path, mut steps) = (Path::new(legs, settings)?, Vec::new());
-        // each step at a problem made anew
-        while let Some(step) = path.next(&mut Solver::default(), &mut problem()?)? {
-            steps.push(step);
-        }
-        Ok::<_, Error>(steps)
-    };
-    let (of_one, of_all) = (follow(alone)?, follow(shared)?);
-    assert_eq!(of_all.len(), of_one.len());
-    for (step, expected) in of_all.iter().zip(&of_one) {
-        same_solutions("path", &shared, &step.solution, &expected.solution);
-        let figures =
-            |s: &path::PathStep<f64>| (s.leg, [s.work, s.dissipated, s.imbalance, s.work_error].map(f64::to_bits));
-        assert_eq!(figures(step), figures(expected));
-        assert_eq!(step.event, expected.event);
-    }
-    // a saddle is left on the way
-    assert!(of_one.iter().any(|step| step.event.is_some()));
-    say(world, &format!("path of {} states", of_one.len()));
-    Ok(())
-}
-
 fn clusters_hang_together_across_slabs(world: &World) -> Result<()> {
     // pieces of every width, along both sides; some go around the cell
     let maps: [fn(f64, f64) -> bool; 4] = [
@@ -472,18 +304,6 @@ fn clusters_hang_together_across_slabs(world: &World) -> Result<()> {
         };
         assert_eq!(statistics(&shared)?, statistics(&alone)?, "{shape:?}");
     }
-    Ok(())
-}
-
-fn other_symbols_are_shared(world: &World) -> Result<()> {
-    let solve = |grid: Grid| {
-        let body = Spectral::<f64>::new(grid, 1.0, |qx, qy| 0.5 * (qx * qx + 2.0 * qy * qy).sqrt() + 0.1)?;
-        Solver::default().solve(&mut Problem::new(&rough(grid)?, body, NoAdhesion)?, Control::MeanPressure(0.02))
-    };
-    let alone = Grid::square(512, 1.0)?;
-    let shared = world.share(alone)?;
-    same_solutions("symbol", &shared, &solve(shared)?, &solve(alone)?);
-    say(world, "symbol");
     Ok(())
 }
 

@@ -345,7 +345,7 @@ impl Scene {
         let (shape, lengths) = (self.grid.shape(), self.grid.lengths());
         match (self.body, self.layers) {
             (Body::Periodic, Some(layers)) => {
-                Dense::of(shape, lengths, |qx, qy| elastic::Body::stiffness(layers, qx, qy))
+                Dense::of(shape, lengths, |qx, qy| elastic::Body::stiffness(&layers, qx, qy))
             }
             (Body::Periodic, None) => Dense::new(shape, lengths, self.modulus),
             (Body::Free, _) => Dense::free(&self.grid, self.modulus),
