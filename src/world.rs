@@ -76,7 +76,7 @@ impl World {
     }
 
     /// The text of the first process. All processes have to ask.
-    pub fn told(&self, text: &str) -> String {
+    pub fn broadcast(&self, text: &str) -> String {
         let own = if self.rank() == 0 { text.as_bytes().to_vec() } else { Vec::new() };
         String::from_utf8_lossy(&self.ranks.lists(own)).into_owned()
     }

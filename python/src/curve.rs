@@ -95,10 +95,10 @@ impl Curve {
             return Err(PyValueError::new_err("each model needs a word on its work of adhesion"));
         }
         let asked = Asked { models, rows, adheres, full, begins, jumps, least };
-        let (fits, told) = py.detach(|| {
+        let (fits, predictions) = py.detach(|| {
             let fits = asked.search(&self.0);
-            let told = Told::of(&self.0, models, &fits);
-            (fits, told)
+            let predictions = Predictions::compute(&self.0, models, &fits);
+            (fits, predictions)
         });
         let table = |of: &dyn Fn(&Fit) -> [f64; 4]| Array2::from_shape_fn((fits.len(), 4), |(k, i)| of(&fits[k])[i]);
         let parameters = table(&|fit| {
@@ -114,10 +114,10 @@ impl Curve {
             parameters.to_pyarray(py),
             Array2::from_shape_fn((fits.len(), 4), |(k, i)| fits[k].free[i]).to_pyarray(py),
             Array1::from_iter(fits.iter().map(|fit| fit.squares)).to_pyarray(py),
-            told.load.to_pyarray(py),
-            told.load_by.to_pyarray(py),
-            told.off.to_pyarray(py),
-            told.off_by.to_pyarray(py),
+            predictions.load.to_pyarray(py),
+            predictions.load_by.to_pyarray(py),
+            predictions.off.to_pyarray(py),
+            predictions.off_by.to_pyarray(py),
             seen.to_pyarray(py),
         ))
     }
@@ -171,17 +171,17 @@ fn known(models: &[Model], mut numbers: impl Iterator<Item = usize>) -> PyResult
 }
 
 /// What fits predict.
-struct Told {
+struct Predictions {
     load: Array2<f64>,
     load_by: Array3<f64>,
     off: Array2<f64>,
     off_by: Array3<f64>,
 }
 
-impl Told {
-    fn of(curve: &Points, models: &[Model], fits: &[Fit]) -> Self {
+impl Predictions {
+    fn compute(curve: &Points, models: &[Model], fits: &[Fit]) -> Self {
         let (count, points) = (fits.len(), curve.z.len());
-        let mut told = Self {
+        let mut predictions = Self {
             load: Array2::zeros((count, points)),
             load_by: Array3::zeros((count, points, 4)),
             off: Array2::zeros((count, 2)),
@@ -191,19 +191,19 @@ impl Told {
         for (k, fit) in fits.iter().enumerate() {
             curve.predict(&models[fit.model], &fit.parameters, &fit.sides, &mut room);
             let fill = |into: &mut [f64], from: &[f64]| into.copy_from_slice(from);
-            if let Some(into) = told.load.row_mut(k).as_slice_mut() {
+            if let Some(into) = predictions.load.row_mut(k).as_slice_mut() {
                 fill(into, &room.load);
             }
-            if let Some(into) = told.load_by.index_axis_mut(numpy::ndarray::Axis(0), k).as_slice_mut() {
+            if let Some(into) = predictions.load_by.index_axis_mut(numpy::ndarray::Axis(0), k).as_slice_mut() {
                 fill(into, room.load_by.as_flattened());
             }
-            if let Some(into) = told.off.row_mut(k).as_slice_mut() {
+            if let Some(into) = predictions.off.row_mut(k).as_slice_mut() {
                 fill(into, &room.off);
             }
-            if let Some(into) = told.off_by.index_axis_mut(numpy::ndarray::Axis(0), k).as_slice_mut() {
+            if let Some(into) = predictions.off_by.index_axis_mut(numpy::ndarray::Axis(0), k).as_slice_mut() {
                 fill(into, room.off_by.as_flattened());
             }
         }
-        told
+        predictions
     }
 }

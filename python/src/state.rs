@@ -174,7 +174,7 @@ pub fn cycle_limit<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> Py
 
 /// The seconds that are left of a cycle, and its pace in words.
 pub fn pace<T: Scalar>(session: &Session<T>) -> Pace {
-    session.pace().map(|pace| (pace.seconds_left(), pace.told()))
+    session.pace().map(|pace| (pace.seconds_left(), pace.describe()))
 }
 
 /// The stability of a gap under a load, with a known certified error.

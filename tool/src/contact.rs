@@ -94,7 +94,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         let names = [REPORT, scene::NAME].map(str::to_owned).into_iter();
         let names = names.chain(parts.iter().map(|(name, _)| format!("{name}.csv")));
         let names = names.chain(parts.iter().map(|(name, _)| picture_format.file(name)));
-        Outcome::Ok(results.told(&names.collect::<Vec<_>>()))
+        Outcome::Ok(results.list(&names.collect::<Vec<_>>()))
     };
     let told = results.as_ref().map(write).transpose()?;
     printing.say(&aligned(&figures.rows(&units)));

@@ -181,20 +181,20 @@ impl Reader<'_> {
         let alike = similar(entry, self.parser().get_arguments().filter_map(Arg::get_long));
         let alike = alike.map(|alike| (ContextKind::SuggestedArg, format!("--{alike}")));
         let context = alike.into_iter().chain([(ContextKind::InvalidArg, format!("--{entry}"))]);
-        self.told(ErrorKind::UnknownArgument, context)
+        self.explain(ErrorKind::UnknownArgument, context)
     }
 
     /// The mistake of a text that is no value of a key.
     fn invalid(&self, kind: ErrorKind, key: &Key, text: &str) -> String {
         let option = self.parser().get_arguments().find(|arg| arg.get_id() == key.name).map(Arg::to_string);
-        self.told(
+        self.explain(
             kind,
             [(ContextKind::InvalidArg, option.unwrap_or_default()), (ContextKind::InvalidValue, text.to_owned())],
         )
     }
 
     /// A mistake with what may have been meant, on a line.
-    fn told(&self, kind: ErrorKind, context: impl IntoIterator<Item = (ContextKind, String)>) -> String {
+    fn explain(&self, kind: ErrorKind, context: impl IntoIterator<Item = (ContextKind, String)>) -> String {
         let context = context.into_iter().map(|(kind, text)| (kind, ContextValue::String(text)));
         let arguments = ["asperity", self.command.name].map(OsString::from);
         on_one_line(&hinted(self.tool, &arguments, mistake(kind, self.parser(), context)))

@@ -124,7 +124,7 @@ fn read(path: &Path, scene: &SceneFile) -> Outcome<(Topography, Boundary)> {
         return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
     }
     let map = heights::map(path, &scene.given, si)?;
-    session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
+    session::say(&unread(&map).iter().map(|found| Units::default().describe(found)).collect::<Vec<_>>());
     Ok((map, Boundary::Periodic))
 }
 
@@ -155,7 +155,7 @@ fn write(
         }
         Ok(())
     })?;
-    Ok(results.told(&names))
+    Ok(results.list(&names))
 }
 
 /// The flow at the nodes, per width.

@@ -113,7 +113,7 @@ fn prepared(options: &Options, scene: &SceneFile, log: &mut Log) -> Outcome<Topo
     check_room(map.heights.dim())?;
     let steps = in_options(scene.given.steps(map.heights.dim(), scene.is_si(), map.unit.as_deref()))?;
     if steps.lengths.is_none() {
-        session::say(&unread(&map).iter().map(|found| Units::default().told(found)).collect::<Vec<_>>());
+        session::say(&unread(&map).iter().map(|found| Units::default().describe(found)).collect::<Vec<_>>());
     }
     let map = steps.run(map, log);
     session::say(&log.warnings);

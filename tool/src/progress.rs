@@ -145,8 +145,8 @@ impl Progress {
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
         let contact = 100.0 * state.contact_nodes as f64 / self.nodes;
         let (pace, fall) = match &self.pace {
-            Some(pace) => (format!("{}; ", pace.told()), String::new()),
-            None => (String::new(), self.fall.told(self.until)),
+            Some(pace) => (format!("{}; ", pace.describe()), String::new()),
+            None => (String::new(), self.fall.describe(self.until)),
         };
         self.bar.set_message(format!("{pace}{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
     }

@@ -110,7 +110,7 @@ fn find<T: Scalar>(
             FIELDS.into_iter().zip(fields).try_for_each(|(name, field)| write_npy(folder.path(name), field))
         })?;
         let names = [REPORT, scene::NAME].into_iter().chain(FIELDS).map(str::to_owned);
-        printing.say(&results.told(&names.collect::<Vec<_>>()));
+        printing.say(&results.list(&names.collect::<Vec<_>>()));
     }
     printing.report(|| report);
     warn("", &last);

@@ -86,7 +86,7 @@ impl Results<'_> {
     }
 
     /// The names of the files that there are, for people.
-    pub fn told(&self, names: &[String]) -> String {
+    pub fn list(&self, names: &[String]) -> String {
         format!("results in {}: {}", name(self.out), names.join(", "))
     }
 }

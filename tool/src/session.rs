@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal};
 
-use asperity_scene::{Kind, Posed, Session, Told, keys};
+use asperity_scene::{Kind, Notice, Posed, Session, keys};
 
 use crate::options::Scalar;
 use crate::outcome::Outcome;
@@ -30,7 +30,7 @@ pub fn say_new(warnings: &mut Warnings) {
 }
 
 /// Says warnings, and on a terminal where their codes are explained.
-pub fn say(warnings: &[Told]) {
+pub fn say(warnings: &[Notice]) {
     warnings.iter().for_each(|told| complain("warning", &told.to_string()));
     let codes: Vec<_> = warnings.iter().map(|told| told.code.as_str()).collect();
     if !codes.is_empty() && io::stderr().is_terminal() {

@@ -219,7 +219,7 @@ impl Job<'_> {
                 beyond = results.write(folder, write)?;
                 Ok(())
             })?;
-            told.push(results.told(&self.names()));
+            told.push(results.list(&self.names()));
             told.extend(beyond.map(|load| format!("beyond the colours of the pressure: {load}")));
         }
 

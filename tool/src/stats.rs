@@ -60,7 +60,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let units = Units::of_map(map.unit.as_deref());
     let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
     let found = surface.as_ref().map_or_else(|| Warning::of_topography(&map), Warning::of_surface);
-    session::say(&unread(&map).iter().chain(&found).map(|found| units.told(found)).collect::<Vec<_>>());
+    session::say(&unread(&map).iter().chain(&found).map(|found| units.describe(found)).collect::<Vec<_>>());
     check_complete(path, &map)?;
     if let Some(file) = psd {
         let Some(surface) = &surface else {

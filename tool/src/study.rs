@@ -100,7 +100,7 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     if list {
         for (k, case) in study.cases.iter().enumerate() {
             let done = if is_done(&case.rows) { "done" } else { "to do" };
-            printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
+            printing.say(&format!("{}  {done}  {}", k + 1, study.describe(case)));
         }
     } else {
         let replaceable = folder(out).exists() || force;

@@ -117,21 +117,21 @@ impl Engine {
         self.origin.steps = (!typed.is_empty()).then_some(typed);
         self.problem = None;
         self.prepared = self.origin.steps.is_some().then_some(prepared);
-        Ok(self.told(Some(log)))
+        Ok(self.describe_surface(Some(log)))
     }
 
     /// Takes a map as the surface.
     fn take(&mut self, map: Topography, log: Option<Log>) -> Value {
         (self.map, self.prepared, self.problem) = (Some(map), None, None);
-        self.told(log)
+        self.describe_surface(log)
     }
 
     /// The surface in figures.
-    fn told(&self, log: Option<Log>) -> Value {
+    fn describe_surface(&self, log: Option<Log>) -> Value {
         let Ok(map) = self.surface() else { return Value::Null };
         let of_map = || {
             let units = Units::of_map(map.unit.as_deref());
-            Warning::of_topography(map).iter().map(|warning| units.told(warning)).collect()
+            Warning::of_topography(map).iter().map(|warning| units.describe(warning)).collect()
         };
         let lines = log.as_ref().map(|log| log.lines.clone());
         let warnings = log.map_or_else(of_map, |log| log.warnings);

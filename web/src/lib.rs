@@ -33,7 +33,7 @@ pub fn start() {
 const FAULT: &str = "the engine has failed";
 
 /// A value for JavaScript, or an error with its message.
-fn told<T>(outcome: Outcome<T>) -> Result<T, JsError> {
+fn to_js<T>(outcome: Outcome<T>) -> Result<T, JsError> {
     outcome.map_err(|error| JsError::new(&message(&*error)))
 }
 
@@ -61,7 +61,7 @@ pub fn about() -> String {
 /// The key that is missing.
 #[wasm_bindgen]
 pub fn chart(given: &str) -> Result<String, JsError> {
-    told(drawn::chart(given))
+    to_js(drawn::chart(given))
 }
 
 /// The engine for JavaScript.
@@ -79,84 +79,84 @@ impl Page {
 
     /// See [`Engine::open`].
     pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>, masked: bool) -> Result<String, JsError> {
-        told(self.0.open(name, bytes, channel, masked).map(|found| found.to_string()))
+        to_js(self.0.open(name, bytes, channel, masked).map(|found| found.to_string()))
     }
 
     /// See [`Engine::make`].
     pub fn make(&mut self, given: &str) -> Result<String, JsError> {
-        told(self.0.make(given).map(|found| found.to_string()))
+        to_js(self.0.make(given).map(|found| found.to_string()))
     }
 
     /// See [`Engine::prepare`].
     pub fn prepare(&mut self, given: &str) -> Result<String, JsError> {
-        told(self.0.prepare(given).map(|found| found.to_string()))
+        to_js(self.0.prepare(given).map(|found| found.to_string()))
     }
 
     /// See [`Engine::heights`].
     pub fn heights(&self) -> Result<Vec<f32>, JsError> {
-        told(self.0.heights())
+        to_js(self.0.heights())
     }
 
     /// See [`Engine::statistics`].
     pub fn statistics(&self) -> Result<String, JsError> {
-        told(self.0.statistics().map(|found| found.to_string()))
+        to_js(self.0.statistics().map(|found| found.to_string()))
     }
 
     /// See [`Engine::solve`]; `observe` is called now and then with the iteration, the error, the tolerance, the contact
     /// fraction and the nodes.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Option<Function>) -> Result<String, JsError> {
-        observed::by(observe, |observe| told(self.0.solve(given, from_last, observe).map(|found| found.to_string())))
+        observed::by(observe, |observe| to_js(self.0.solve(given, from_last, observe).map(|found| found.to_string())))
     }
 
     /// See [`Engine::gap`].
     pub fn gap(&self) -> Result<Vec<f64>, JsError> {
-        told(self.0.gap())
+        to_js(self.0.gap())
     }
 
     /// See [`Engine::start_from`].
     pub fn start_from(&mut self, gap: Vec<f64>) -> Result<(), JsError> {
-        told(self.0.start_from(gap))
+        to_js(self.0.start_from(gap))
     }
 
     /// See [`Engine::begin`].
     pub fn begin(&mut self, given: &str) -> Result<String, JsError> {
-        told(self.0.begin(given).map(|found| found.to_string()))
+        to_js(self.0.begin(given).map(|found| found.to_string()))
     }
 
     /// See [`Engine::next`].
     pub fn next(&mut self, observe: Option<Function>) -> Result<Option<String>, JsError> {
-        observed::by(observe, |observe| told(self.0.next(observe).map(|row| row.map(|row| row.to_string()))))
+        observed::by(observe, |observe| to_js(self.0.next(observe).map(|row| row.map(|row| row.to_string()))))
     }
 
     /// See [`Engine::cycle_limit`].
     pub fn cycle_limit(&mut self, observe: Option<Function>) -> Result<Option<String>, JsError> {
         observed::by(observe, |observe| {
-            told(self.0.cycle_limit(observe).map(|limit| limit.map(|limit| limit.to_string())))
+            to_js(self.0.cycle_limit(observe).map(|limit| limit.map(|limit| limit.to_string())))
         })
     }
 
     /// A field of the last solution; the nodes by their contact as `regions`.
     pub fn field(&self, name: &str) -> Result<Vec<f32>, JsError> {
-        told(self.0.problem().and_then(|problem| problem.field(name)))
+        to_js(self.0.problem().and_then(|problem| problem.field(name)))
     }
 
     /// The nodes of the last solution by their contact.
     pub fn regions(&self) -> Result<Vec<u8>, JsError> {
-        told(self.0.problem().and_then(|problem| problem.regions()))
+        to_js(self.0.problem().and_then(|problem| problem.regions()))
     }
 
     /// The histograms of the last solution.
     pub fn histograms(&self, bins: usize) -> Result<String, JsError> {
-        told(self.0.problem().and_then(|problem| problem.histograms(bins)).map(|found| found.to_string()))
+        to_js(self.0.problem().and_then(|problem| problem.histograms(bins)).map(|found| found.to_string()))
     }
 
     /// See [`Engine::file`].
     pub fn file(&self, name: &str) -> Result<Vec<u8>, JsError> {
-        told(self.0.file(name))
+        to_js(self.0.file(name))
     }
 
     /// See [`Engine::lines`].
     pub fn lines(&self) -> Result<String, JsError> {
-        told(self.0.lines().map(|found| found.to_string()))
+        to_js(self.0.lines().map(|found| found.to_string()))
     }
 }

@@ -188,7 +188,7 @@ impl<T: Scalar> State<T> {
             "warnings": row.account.warnings,
             "shortfalls": told,
             "share": pace.map(|pace| pace.share()),
-            "told": pace.map(|pace| pace.told()),
+            "told": pace.map(|pace| pace.describe()),
         });
         self.last = Some(Last { found, account: row.account, start: None });
         Ok(Some(answer))

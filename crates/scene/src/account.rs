@@ -50,7 +50,7 @@ pub(crate) use self::warnings::warnings_of_input;
 pub use self::words::corrected;
 use crate::key;
 use crate::key::{
-    ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Told, record, worded,
+    ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, Notice, PRESSURE, PRESSURE_PER_LENGTH, record, worded,
 };
 use crate::numbers::plain;
 
@@ -65,7 +65,7 @@ record! {
         share: f64,
         inputs: Inputs,
         strongest: Option<(usize, usize)>,
-        warnings: Vec<Told>,
+        warnings: Vec<Notice>,
     ) {
         /// Command.
         command: &'static str = command,
@@ -187,7 +187,7 @@ record! {
         /// Whether the resolution measure exceeds 0.5: the grid does not resolve the adhesion.
         under_resolved: bool = report.under_resolved,
         /// Warnings.
-        warnings: Vec<Told> = warnings,
+        warnings: Vec<Notice> = warnings,
         /// Time of the solve in seconds, without files and pictures.
         seconds: f64 as Seconds = found.seconds,
         /// Quantity that is held, for example `mean-gap`.

@@ -88,9 +88,9 @@ impl Processes {
     }
 
     /// The text of the first process.
-    pub fn told(&self, text: String) -> String {
+    pub fn broadcast(&self, text: String) -> String {
         #[cfg(feature = "mpi")]
-        return self.world.told(&text);
+        return self.world.broadcast(&text);
         #[cfg(not(feature = "mpi"))]
         text
     }

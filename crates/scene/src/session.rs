@@ -24,7 +24,7 @@ use crate::Either;
 use crate::account::row::Kind;
 use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
 use crate::case::{Part, Posed};
-use crate::key::{After, Asked, Constraint, Goal, Precision, Scalar, Scene, Skin, Told, Units, worded};
+use crate::key::{After, Asked, Constraint, Goal, Notice, Precision, Scalar, Scene, Skin, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
@@ -122,7 +122,7 @@ impl<T: Scalar> Session<T> {
             true => {
                 let surface = (&*surface.whole(), converted_from.as_deref());
                 let found = warnings_of_input(surface, &scene.elastic, &*law, &units);
-                Warnings::new(posed.doubts.iter().map(|doubt| units.told(doubt)).chain(found).collect(), is_strict)
+                Warnings::new(posed.doubts.iter().map(|doubt| units.describe(doubt)).chain(found).collect(), is_strict)
             }
             false if is_strict => Err("--strict has no form for several processes and more than 4096 x 4096 nodes: \
                                        leave it out"
@@ -252,7 +252,7 @@ impl<T: Scalar> Session<T> {
     }
 
     /// The warnings of the input and of a state.
-    fn look(&mut self, found: &Found<T>) -> Outcome<Vec<Told>> {
+    fn look(&mut self, found: &Found<T>) -> Outcome<Vec<Notice>> {
         let mut new = Vec::new();
         if is_whole(&self.grid) {
             let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.facts.scars_removed));
@@ -263,7 +263,7 @@ impl<T: Scalar> Session<T> {
                 new.retain(|warning| warning.code != WarningCode::WindowEdge);
             }
         }
-        self.warnings.add(new.iter().map(|warning| self.facts.units.told(warning)).collect())
+        self.warnings.add(new.iter().map(|warning| self.facts.units.describe(warning)).collect())
     }
 
     /// A result with a reason that has keys in braces.

@@ -259,7 +259,7 @@ impl Table {
 
     fn text(&self, processes: &Processes) -> Outcome<String> {
         let text = self.journal.as_ref().map_or(Ok(String::new()), |journal| Ok(journal.text()?));
-        Ok(processes.told(processes.agree(text)?))
+        Ok(processes.broadcast(processes.agree(text)?))
     }
 }
 

@@ -34,7 +34,7 @@ fn is_among(list: &str, name: &str) -> bool {
     list.split_whitespace().any(|one| one == name)
 }
 
-fn told<'a>(lists: &[&'a [Number]]) -> Vec<&'a Number> {
+fn select<'a>(lists: &[&'a [Number]]) -> Vec<&'a Number> {
     lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_told).collect()
 }
 
@@ -96,10 +96,10 @@ fn types() -> String {
     let mut text = String::from(
         "\"\"\"The numbers of answers. Written by `UPDATE=1 cargo test -p asperity-scene --test numbers`.\"\"\"\n\n\
          from __future__ import annotations\n\nfrom typing import TypedDict, cast\n\n\
-         from ..common.types import AccuracyOf, Boundary, Branch, Criterion, GridError, Method, Patch, Precision, Status, Told, Verdict, WallName\n",
+         from ..common.types import AccuracyOf, Boundary, Branch, Criterion, GridError, Method, Notice, Patch, Precision, Status, Verdict, WallName\n",
     );
     for (name, key, numbers) in TABLES {
-        text += &class(name, &format!("The entries of ``{key}``."), &told(&[numbers]));
+        text += &class(name, &format!("The entries of ``{key}``."), &select(&[numbers]));
     }
     text += &class(
         "Report",
@@ -148,9 +148,9 @@ fn table(numbers: &[&Number]) -> String {
 }
 
 fn document() -> String {
-    let of_solve = told(&[Account::NUMBERS]);
+    let of_solve = select(&[Account::NUMBERS]);
     let (columns, others): (Vec<_>, Vec<_>) = of_solve.iter().partition(|number| number.is_column());
-    let of_row = told(&[Row::NUMBERS]).into_iter().filter(|number| number.name != "heights");
+    let of_row = select(&[Row::NUMBERS]).into_iter().filter(|number| number.name != "heights");
     let mut text = String::from(
         "# Numbers of reports and tables\n\nA number has the same name and the same meaning in all [reports](reports.md), as a \
          column of a table, and in Python. A number\nthat does not apply, or is not finite, is `null`. Numbers are in the \
@@ -161,15 +161,15 @@ fn document() -> String {
         ("Of a solution and of tables", columns),
         ("Of a solution alone", others),
         ("Of tables alone", of_row.collect()),
-        ("Of a cycle", told(&[Step::NUMBERS, CycleLimit::NUMBERS])),
-        ("Of a pull-off", told(&[PulledOff::NUMBERS])),
-        ("Of the run", told(&[Inputs::NUMBERS, Slopes::NUMBERS])),
+        ("Of a cycle", select(&[Step::NUMBERS, CycleLimit::NUMBERS])),
+        ("Of a pull-off", select(&[PulledOff::NUMBERS])),
+        ("Of the run", select(&[Inputs::NUMBERS, Slopes::NUMBERS])),
     ] {
         text += &format!("\n## {heading}\n{}", table(&numbers));
     }
     text += "\nReports also have the [keys](keys.md) of the body, the law and the wall.\n\n## Tables within reports\n";
     for (_, key, numbers) in TABLES {
-        text += &format!("\n### {key}\n{}", table(&told(&[numbers])));
+        text += &format!("\n### {key}\n{}", table(&select(&[numbers])));
     }
     text
 }

@@ -275,13 +275,13 @@ fn a_steady_fall_tells_its_rate_and_the_time_that_is_left() {
     // from 2⁻⁸ to 2⁻¹⁰ in two iterations of 0.1 s
     let (factor, seconds) = fall.rate(0.5_f64.powi(10)).unwrap();
     assert!((factor - 2.0).abs() < 1e-12 && (seconds - 0.2).abs() < 1e-12);
-    assert_eq!(fall.told(0.5_f64.powi(10)), ", 2.00 times smaller in an iteration, 0.2 s left");
+    assert_eq!(fall.describe(0.5_f64.powi(10)), ", 2.00 times smaller in an iteration, 0.2 s left");
     assert_eq!(fall.rate(0.1).unwrap().1, 0.0);
     // another law is another error, and one that grows tells nothing
     fall.next((1, false), 9, 1.0, 0.9);
-    assert_eq!(fall.told(1e-3), "");
+    assert_eq!(fall.describe(1e-3), "");
     (10..20).for_each(|k| fall.next((1, false), k, k as f64, 0.1 * k as f64));
-    assert_eq!(fall.told(1e-3), "");
+    assert_eq!(fall.describe(1e-3), "");
     assert_eq!([5.0, 60.0, 600.0, 9000.0].map(time), ["5.0 s", "60 s", "10 min", "2.5 h"]);
 }
 
@@ -298,12 +298,12 @@ fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
     // from a twentieth of the way on by the speed
     pace.add(0.4, true, 4.0);
     assert!((pace.seconds_left().unwrap() - 18.0).abs() < 1e-12);
-    assert_eq!(pace.told(), "4 states, 2 events, 40 % of the way, about 18 s left");
+    assert_eq!(pace.describe(), "4 states, 2 events, 40 % of the way, about 18 s left");
     // before the first state by the time of an operator application, and then more and more by the speed
     let mut fresh = begun;
     assert_eq!((fresh.seconds_left(), fresh.asked()), (None, None));
     fresh.expect(1e-3, false);
-    assert_eq!(fresh.told(), "0 states, 0 events, 0 % of the way, about 6.1 s left");
+    assert_eq!(fresh.describe(), "0 states, 0 events, 0 % of the way, about 6.1 s left");
     assert_eq!(fresh.asked().unwrap(), "101 states or more, 2 legs of 50 steps: about 6.1 s");
     assert_eq!(fresh.behind(3, 0).asked(), None);
     let mut short = Pace::new(1, &settings.steps(1));

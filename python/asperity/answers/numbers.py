@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TypedDict, cast
 
-from ..common.types import AccuracyOf, Boundary, Branch, Criterion, GridError, Method, Patch, Precision, Status, Told, Verdict, WallName
+from ..common.types import AccuracyOf, Boundary, Branch, Criterion, GridError, Method, Notice, Patch, Precision, Status, Verdict, WallName
 
 
 class OtherBranch(TypedDict):
@@ -182,7 +182,7 @@ class Report(TypedDict):
     mu_rho: float
     mu_rho_node: list[int] | None
     under_resolved: bool
-    warnings: list[Told]
+    warnings: list[Notice]
     seconds: float
     control: str
     control_value: float

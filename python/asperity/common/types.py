@@ -77,7 +77,7 @@ class Patch(TypedDict):
     attractive_fraction: float
 
 
-class Told(TypedDict):
+class Notice(TypedDict):
     """A warning."""
 
     code: str

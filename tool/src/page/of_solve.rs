@@ -7,7 +7,7 @@ use std::path::Path;
 use asperity::Error;
 use asperity::accuracy::Quantity;
 use asperity_scene::{
-    Account, Adhesion, Elastic, GROUPS, GridErrors, Inputs, Measure, OF_ADHESION, PulledOff, Told, corrected, key,
+    Account, Adhesion, Elastic, GROUPS, GridErrors, Inputs, Measure, Notice, OF_ADHESION, PulledOff, corrected, key,
 };
 use serde::Deserialize;
 use serde_json::Value;
@@ -85,10 +85,10 @@ fn warnings_of(report: &Value) -> Vec<String> {
     let status = report[key!(Account, status)].as_str().unwrap_or_default();
     let unconverged = format!("The solve has not converged, it is {status}: the answer may be wrong.");
     let open = "The pull-off is not found to its tolerance: the surfaces may bear more than is found here.".to_owned();
-    let said: Vec<Told> = serde_json::from_value(report[key!(Account, warnings)].clone()).unwrap_or_default();
+    let said: Vec<Notice> = serde_json::from_value(report[key!(Account, warnings)].clone()).unwrap_or_default();
     let unconverged = (status != "converged").then_some(unconverged);
     let open = (report[key!(PulledOff, reached)] == false).then_some(open);
-    unconverged.into_iter().chain(open).chain(said.iter().map(Told::to_string)).collect()
+    unconverged.into_iter().chain(open).chain(said.iter().map(Notice::to_string)).collect()
 }
 
 /// Puts the inputs of a solve on a page, and the levels of nested grids.

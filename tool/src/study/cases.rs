@@ -163,7 +163,7 @@ impl Study {
     }
 
     /// The values of a case in words, for people.
-    pub fn told(&self, case: &Case) -> String {
+    pub fn describe(&self, case: &Case) -> String {
         let values = self.columns.iter().zip(&case.values);
         let told = values.filter_map(|(name, value)| Some(format!("{name} {}", text(value.as_ref()?))));
         on_terminal(&told.collect::<Vec<_>>().join(", "))

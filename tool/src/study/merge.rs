@@ -6,7 +6,7 @@ use std::str::Lines;
 
 use asperity::Error;
 use asperity_scene::legs::CASE;
-use asperity_scene::{Format, Told};
+use asperity_scene::{Format, Notice};
 use serde_json::{Map, Number, Value};
 
 use super::cases::{Case, Study, text};
@@ -96,8 +96,8 @@ fn bare(column: &str) -> &str {
 
 /// The warnings of all cases: of each code the worst, with the numbers of its cases if these are not all, and of the
 /// one that it is the text of, if the texts differ.
-fn warnings(study: &Study) -> Outcome<Vec<Told>> {
-    let mut all: Vec<(Told, usize, Vec<usize>, bool)> = Vec::new();
+fn warnings(study: &Study) -> Outcome<Vec<Notice>> {
+    let mut all: Vec<(Notice, usize, Vec<usize>, bool)> = Vec::new();
     for (number, case) in (1..).zip(&study.cases) {
         for told in read_beside(&case.rows)? {
             let Some((known, worst, cases, differ)) = all.iter_mut().find(|(known, ..)| known.code == told.code) else {

@@ -119,7 +119,7 @@ pub fn solve(
     let progress = || progress.lock().unwrap_or_else(PoisonError::into_inner);
     let solve = |number: usize, wait: bool| {
         let case = &study.cases[number];
-        let (name, mut warnings) = (format!("case {}: {}", number + 1, study.told(case)), Vec::new());
+        let (name, mut warnings) = (format!("case {}: {}", number + 1, study.describe(case)), Vec::new());
         if wait {
             printing.say(&format!("{name} is solved by another run: waiting for it"));
         }

@@ -14,7 +14,7 @@ use ndarray::{Array2, ArrayView2};
 
 use crate::account::{Findings, GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 use crate::clock::Instant;
-use crate::key::{Told, record};
+use crate::key::{Notice, record};
 
 record! {
     /// The solution of a contact problem, with all that was asked for with it.
@@ -177,7 +177,7 @@ fn has_yielded(report: &Report) -> bool {
 pub fn warnings_of<T: Real>(
     solution: &Solution<T>,
     original: Option<Original>,
-    (of_input, scars_removed): (&[Told], Option<f64>),
+    (of_input, scars_removed): (&[Notice], Option<f64>),
 ) -> Result<Vec<Warning>> {
     let mut found = Warning::of_solution(solution, scars_removed);
     let steep = of_input.iter().any(|told| told.code == WarningCode::Steep.name());

@@ -5,7 +5,7 @@ use asperity::{Real, Result, Solution};
 use ndarray::ArrayView2;
 
 use crate::account::{Account, Found, Inputs, Sight, untold};
-use crate::key::{Adhesion, Told};
+use crate::key::{Adhesion, Notice};
 
 impl<T: Real> Found<T> {
     /// The account of the solve by a command; [`Sight::look`] adds the keys that follow from the fields.
@@ -17,7 +17,7 @@ impl<T: Real> Found<T> {
         command: &'static str,
         inputs: &Inputs,
         strongest: Option<(usize, usize)>,
-        warnings: Vec<Told>,
+        warnings: Vec<Notice>,
     ) -> Result<Account> {
         let (original, part) = (self.sight.original, self.part()?);
         let (grid, report) = (&part.grid, &part.report);

@@ -83,7 +83,7 @@ impl Measure {
     }
 
     /// A number or a word of a report for people; nothing for what does not apply, and for tables.
-    pub fn told(self, value: &Value, units: &Units) -> Option<String> {
+    pub fn describe(self, value: &Value, units: &Units) -> Option<String> {
         match value {
             Value::String(word) => Some(word.clone()),
             Value::Number(number) if number.is_f64() => Some(self.text(number.as_f64()?, units)),

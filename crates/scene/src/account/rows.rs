@@ -31,7 +31,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Rows {
         let text = |value: &Value| match (measure, value.as_f64()) {
             // as many digits as there is room for
             (Measure::Plain, Some(number)) if value.is_f64() => Some(plain(number)),
-            _ => measure.told(value, units),
+            _ => measure.describe(value, units),
         };
         told.iter().map(|report| text(&report[name])).collect()
     };

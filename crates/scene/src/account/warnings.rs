@@ -4,7 +4,7 @@ use asperity::{AdhesionLaw, Real, Surface};
 use asperity_maps::Topography;
 use asperity_maps::warning::{Warning, WarningCode};
 
-use crate::key::{Elastic, Told, Units, power_of_length, times_ten_to};
+use crate::key::{Elastic, Notice, Units, power_of_length, times_ten_to};
 
 /// The warnings of the input of a solve, before it: of the heights, of the modulus unless its unit is known, and of the
 /// law on the heights; in units as far as they are known. Heights may have been converted from the unit of their file.
@@ -13,7 +13,7 @@ pub fn warnings_of_input<T: Real>(
     elastic: &Elastic,
     law: &dyn AdhesionLaw<T>,
     units: &Units,
-) -> Vec<Told> {
+) -> Vec<Notice> {
     let mut found = elastic.boundary.warnings(surface);
     let codes = converted_from.map_or(Vec::new(), |unit| codes_in_file(surface, unit));
     if !codes.is_empty() {
@@ -27,11 +27,11 @@ pub fn warnings_of_input<T: Real>(
     found.extend(body.as_deref().and_then(|body| Warning::of_body(body, surface.grid())));
     let modulus = body.map_or(elastic.modulus, |body| body.modulus_on(surface.grid()));
     found.extend(Warning::of_law(&law, surface, modulus));
-    found.iter().map(|warning| units.told(warning)).chain(codes).collect()
+    found.iter().map(|warning| units.describe(warning)).chain(codes).collect()
 }
 
 /// The codes for missing points in heights that were converted from a unit, as they stand in the file.
-fn codes_in_file(surface: &Surface, unit: &str) -> Vec<Told> {
+fn codes_in_file(surface: &Surface, unit: &str) -> Vec<Notice> {
     let Some(power) = power_of_length(unit) else { return Vec::new() };
     // codes are whole numbers; the conversion may have rounded the last digit
     let in_file = surface.heights().mapv(|height| {
@@ -41,5 +41,5 @@ fn codes_in_file(surface: &Surface, unit: &str) -> Vec<Told> {
     });
     let codes = Warning::of_topography(&Topography::new(in_file));
     let codes = codes.iter().filter(|warning| warning.code == WarningCode::MissingCode);
-    codes.map(|warning| Units::of_map(Some(unit)).told(warning)).collect()
+    codes.map(|warning| Units::of_map(Some(unit)).describe(warning)).collect()
 }

@@ -12,7 +12,7 @@ use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use serde::{Deserialize, Deserializer, de};
 
-use crate::key::{Given, LENGTH, Told, Units, power_of_length, times_ten_to};
+use crate::key::{Given, LENGTH, Notice, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
 pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 
@@ -93,7 +93,7 @@ pub struct Log {
     /// Each step that was taken, with its name and its effect in numbers.
     pub lines: Vec<(&'static str, String)>,
     /// The probable mistakes that were met.
-    pub warnings: Vec<Told>,
+    pub warnings: Vec<Notice>,
 }
 
 impl Log {
@@ -113,7 +113,7 @@ impl Log {
 
     fn warn(&mut self, found: impl IntoIterator<Item = Warning>, map: &Topography) {
         let units = Units::of_map(map.unit.as_deref());
-        self.warnings.extend(found.into_iter().map(|warning| units.told(&warning)));
+        self.warnings.extend(found.into_iter().map(|warning| units.describe(&warning)));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use asperity_maps::warning::Warning;
 
-use crate::key::{Dimension, FORCE, Given, Kind, LENGTH, PRESSURE, Range, Told, keys, unit};
+use crate::key::{Dimension, FORCE, Given, Kind, LENGTH, Notice, PRESSURE, Range, keys, unit};
 use crate::numbers::{self, plain, si};
 
 keys! {
@@ -85,9 +85,9 @@ impl Units {
     }
 
     /// A warning in these units.
-    pub fn told(&self, warning: &Warning) -> Told {
+    pub fn describe(&self, warning: &Warning) -> Notice {
         let message = warning.message_with(|value| self.number(value, LENGTH), |value| self.number(value, PRESSURE));
-        Told { code: warning.code.name().to_owned(), message, severity: warning.severity() }
+        Notice { code: warning.code.name().to_owned(), message, severity: warning.severity() }
     }
 
     /// The unit of a dimension: its own of the SI, or a product of those that are known.

@@ -45,7 +45,7 @@ impl Fall {
     }
 
     /// The same in words.
-    pub fn told(&self, tolerance: f64) -> String {
+    pub fn describe(&self, tolerance: f64) -> String {
         let Some((factor, seconds)) = self.rate(tolerance) else { return String::new() };
         format!(", {factor:.2} times smaller in an iteration, {} left", time(seconds))
     }

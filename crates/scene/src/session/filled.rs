@@ -101,7 +101,7 @@ impl<T: Scalar> Session<T> {
             }
             let modulus = self.facts.scene.elastic.body()?.modulus_on(&self.grid);
             let found = Warning::of_cycle(&*self.law, &self.grid, modulus, settings.smooth);
-            self.warnings.add_of_input(found.iter().map(|warning| self.facts.units.told(warning)).collect())?;
+            self.warnings.add_of_input(found.iter().map(|warning| self.facts.units.describe(warning)).collect())?;
         }
         let mut course = Course::new(way, after, touch, |load| self.on_whole(load))?;
         course.expect(self)?;

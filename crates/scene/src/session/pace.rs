@@ -90,7 +90,7 @@ impl Pace {
     }
 
     /// The pace in words.
-    pub fn told(&self) -> String {
+    pub fn describe(&self) -> String {
         let left = self.seconds_left().map_or(String::new(), |seconds| format!(", about {} left", time(seconds)));
         let way = format!("{:.0} % of the way", 100.0 * self.share);
         format!("{}, {}, {way}{left}", count(self.states, "state"), count(self.events, "event"))

@@ -260,7 +260,7 @@ impl<T: Scalar> Session<T> {
             let pulled_off = PulledOff::of(asked, &found.found, &last.part()?.report, Ok(&found), goal);
             if let Err(NoEstimate::FewNodes { nodes, needed, bytes }) = found.error {
                 let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
-                self.warnings.add_of_input(vec![self.facts.units.told(&few)])?;
+                self.warnings.add_of_input(vec![self.facts.units.describe(&few)])?;
             }
             return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off));
         }

@@ -26,7 +26,7 @@ pub fn write_fields<T: Scalar>(
         let mut named = fields.iter().map(|(name, field)| (here.join(name), *field));
         return named.try_for_each(|(path, field)| write_npy(&path, field)).map_err(at_destination);
     }
-    let files = PathBuf::from(processes.told(here.display().to_string()));
+    let files = PathBuf::from(processes.broadcast(here.display().to_string()));
     let named = fields.iter().map(|(name, field)| (files.join(name), *field));
     let mut create = fields.iter().map(|(name, _)| create_npy::<T>(&files.join(name), grid.shape()));
     processes.first(|| create.try_for_each(|created| created).map_err(at_destination))?;

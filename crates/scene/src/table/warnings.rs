@@ -5,7 +5,7 @@ use std::{fs, io};
 
 use asperity::Error;
 
-use crate::key::Told;
+use crate::key::Notice;
 use crate::outcome::Outcome;
 use crate::table::output::{OutputFile, check_free, with_suffix, write_text};
 
@@ -26,10 +26,10 @@ pub fn check_beside(table: &Path, force: bool) -> Outcome<()> {
 ///
 /// # Errors
 /// [`Error::File`] if they cannot be read.
-pub fn read_beside(table: &Path) -> Outcome<Vec<Told>> {
+pub fn read_beside(table: &Path) -> Outcome<Vec<Notice>> {
     let path = beside(table);
     match fs::read_to_string(&path) {
-        Ok(text) => Ok(text.lines().filter_map(Told::parse).collect()),
+        Ok(text) => Ok(text.lines().filter_map(Notice::parse).collect()),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
         Err(error) => Err(Error::unreadable(&path, error).into()),
     }
@@ -39,7 +39,7 @@ pub fn read_beside(table: &Path) -> Outcome<Vec<Told>> {
 ///
 /// # Errors
 /// [`Error::File`] if they cannot be written.
-pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
+pub fn write_beside(table: &Path, warnings: &[Notice]) -> Outcome<()> {
     let path = beside(table);
     if warnings.is_empty() {
         return match fs::remove_file(&path) {
@@ -49,7 +49,7 @@ pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
             _ => Ok(()),
         };
     }
-    let lines: String = warnings.iter().map(Told::line).collect();
+    let lines: String = warnings.iter().map(Notice::line).collect();
     let file = OutputFile::create(&path, true)?;
     file.write(|path| write_text(path, &lines))?;
     Ok(file.commit()?)
@@ -57,8 +57,8 @@ pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
 
 /// The warnings of a run so far, each told once; the worst of each code is kept.
 pub struct Warnings {
-    of_input: Vec<Told>,
-    found: Vec<Told>,
+    of_input: Vec<Notice>,
+    found: Vec<Notice>,
     told: usize,
     is_strict: bool,
     /// The table that keeps them next to itself
@@ -67,23 +67,23 @@ pub struct Warnings {
 
 impl Warnings {
     /// The warnings of an input; an error, if warnings are.
-    pub(crate) fn new(of_input: Vec<Told>, is_strict: bool) -> Outcome<Self> {
+    pub(crate) fn new(of_input: Vec<Notice>, is_strict: bool) -> Outcome<Self> {
         let mut warnings = Self { of_input: Vec::new(), found: Vec::new(), told: 0, is_strict, table: None };
         warnings.of_input = warnings.add(of_input)?;
         Ok(warnings)
     }
 
     /// Keeps further warnings of the input; an error, if warnings are.
-    pub(crate) fn add_of_input(&mut self, new: Vec<Told>) -> Outcome<()> {
+    pub(crate) fn add_of_input(&mut self, new: Vec<Notice>) -> Outcome<()> {
         self.of_input = self.add(new)?;
         Ok(())
     }
 
     /// Keeps the warnings of a state, behind the warnings of the input; an error, if warnings are.
-    pub(crate) fn add(&mut self, new: Vec<Told>) -> Outcome<Vec<Told>> {
+    pub(crate) fn add(&mut self, new: Vec<Notice>) -> Outcome<Vec<Notice>> {
         // earlier rows of a table may have said the same without it
         if self.is_strict && !new.is_empty() {
-            let all: Vec<_> = new.iter().map(Told::to_string).collect();
+            let all: Vec<_> = new.iter().map(Notice::to_string).collect();
             return Err(all.join("; and ").into());
         }
         let mut of_state = self.of_input.clone();
@@ -105,24 +105,24 @@ impl Warnings {
     }
 
     /// The warnings that were not told before.
-    pub fn tell(&mut self) -> &[Told] {
+    pub fn tell(&mut self) -> &[Notice] {
         let told = std::mem::replace(&mut self.told, self.found.len());
         &self.found[told..]
     }
 
     /// The warnings of the input.
-    pub fn of_input(&self) -> &[Told] {
+    pub fn of_input(&self) -> &[Notice] {
         &self.of_input
     }
 
     /// All warnings so far.
-    pub fn found(&self) -> &[Told] {
+    pub fn found(&self) -> &[Notice] {
         &self.found
     }
 }
 
 /// Keeps warnings of new codes, and worse ones of those that are known; whether there are any.
-fn keep(kept: &mut Vec<Told>, new: Vec<Told>) -> bool {
+fn keep(kept: &mut Vec<Notice>, new: Vec<Notice>) -> bool {
     let mut changed = false;
     for told in new {
         changed |= match kept.iter_mut().find(|known| known.code == told.code) {

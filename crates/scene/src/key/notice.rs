@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A warning in the units of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Told {
+pub struct Notice {
     /// The code.
     pub code: String,
     /// The message.
@@ -17,7 +17,7 @@ pub struct Told {
     pub(crate) severity: f64,
 }
 
-impl Told {
+impl Notice {
     /// Takes the place of another one of its code, if it is worse; whether it is.
     pub fn replace_if_worse(self, known: &mut Self) -> bool {
         let worse = self.severity > known.severity;
@@ -43,7 +43,7 @@ impl Told {
     }
 }
 
-impl fmt::Display for Told {
+impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.code, self.message)
     }
