@@ -1,6 +1,8 @@
 //! Force curves: their least squares, for `asperity/curves`.
 
-use asperity_curve::{Asked, Curve as Points, Fit, Model, Parameters, Prediction, Scale, Scales, Sides, greatest_root};
+use asperity_curve::{
+    Curve as Points, Fit, Model, Parameters, Prediction, Scale, Scales, Search, Sides, greatest_root,
+};
 use numpy::ndarray::{Array1, Array2, Array3, ArrayView2};
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -94,7 +96,7 @@ impl Curve {
         if adheres.len() != models.len() {
             return Err(PyValueError::new_err("each model needs a word on its work of adhesion"));
         }
-        let asked = Asked { models, rows, adheres, full, begins, jumps, least };
+        let asked = Search { models, rows, adheres, full, begins, jumps, least };
         let (fits, predictions) = py.detach(|| {
             let fits = asked.search(&self.0);
             let predictions = Predictions::compute(&self.0, models, &fits);

@@ -127,9 +127,9 @@ impl Problem {
         self.renew()?;
         let known = known!(LoadKeys, NestedKeys, FindingsKeys, ConductorKeys, AccuracyKeys);
         let (case, started) = (self.case(&[read(&known, keywords)?])?, start.is_some());
-        let load = case.load().and_then(|load| case.asked(1.0, started).map(|_| load)).map_err(refusal_of_session)?;
+        let load = case.load().and_then(|load| case.request(1.0, started).map(|_| load)).map_err(refusal_of_session)?;
         let at = self.at(py, observe)?;
-        let asked = case.asked(self.full_pressure(&at, &[load])?, started).map_err(refusal_of_session)?;
+        let asked = case.request(self.full_pressure(&at, &[load])?, started).map_err(refusal_of_session)?;
         either!(session = self.session() => state::solve(session, &at, &asked, start))
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use asperity::{Control, PullOff};
 use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::warnings::check_beside;
-use asperity_scene::{After, Asked, Goal, Next, Session, Skin, TableFile, Way};
+use asperity_scene::{After, Goal, Next, Request, Session, Skin, TableFile, Way};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::PyValueError;
@@ -56,7 +56,7 @@ fn start<T: Scalar>(
 pub fn solve<'py, T: Scalar>(
     session: &mut Session<T>,
     at: &At<'py>,
-    asked: &Asked,
+    asked: &Request,
     begin: Option<Begin<'py>>,
 ) -> Answer<'py> {
     let start = start(session, begin, Some(asked.control))?.map(T::field);

@@ -132,7 +132,7 @@ fn solved(
     let mut progress = Progress::new(name, case.scene().tolerance(), nodes, printing.without_bars());
     let session = Strictness::default().session::<f64>(posed, processes)?;
     let mut session = session.with_slopes()?.for_one_solve();
-    let mut solved = session.solve(&case.asked(1.0, false)?, None, &mut progress.on_grids())?;
+    let mut solved = session.solve(&case.request(1.0, false)?, None, &mut progress.on_grids())?;
     solved.look()?;
     Ok(solved)
 }

@@ -132,7 +132,7 @@ impl Options {
 
     /// Refuses what excludes each other, and what has no form for several processes.
     fn check_asked(&self, problem: &ProblemOptions, processes: &Processes) -> Outcome<()> {
-        let asked = problem.case.asked(1.0, problem.files.initial_gap.is_some())?;
+        let asked = problem.case.request(1.0, problem.files.initial_gap.is_some())?;
         if self.fields.is_some() && problem.case.scene().elastic.boundary == Boundary::Free {
             processes.alone("--fields displacement with a free boundary")?;
         }
@@ -180,7 +180,7 @@ impl Job<'_> {
         let mut session = session.with_slopes()?.for_one_solve();
         let start = self.problem.start(&mut session, processes)?.map(T::field);
         let full = session.full_pressure(&[self.problem.case.load()?])?;
-        let asked = self.problem.case.asked(full, start.is_some())?;
+        let asked = self.problem.case.request(full, start.is_some())?;
         say_new(&mut session.warnings);
         let tolerance = session.tolerance(asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());

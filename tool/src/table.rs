@@ -196,7 +196,7 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Says what is asked of a cycle and what that is likely to take, before its first row.
     pub fn announce(&self) {
-        let asked = self.session.pace().and_then(|pace| pace.asked());
+        let asked = self.session.pace().and_then(|pace| pace.forecast());
         asked.iter().for_each(|asked| self.options.manner.printing.say(asked));
     }
 

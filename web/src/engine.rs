@@ -267,7 +267,7 @@ impl Engine {
     /// # Errors
     /// As [`Engine::problem`].
     pub fn lines(&self) -> Outcome<Value> {
-        let (typed, started) = self.problem()?.asked().ok_or("nothing is solved yet: solve first")?;
+        let (typed, started) = self.problem()?.request().ok_or("nothing is solved yet: solve first")?;
         Ok(json!({
             "shell": self.origin.shell(typed, started),
             "python": self.origin.python(typed, started),

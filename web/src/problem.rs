@@ -102,7 +102,7 @@ impl Problem {
 
     /// What the last solve was asked, and whether it started from another equilibrium, which decides on its own with
     /// adhesion.
-    pub fn asked(&self) -> Option<(&Typed<String, Value>, bool)> {
+    pub fn request(&self) -> Option<(&Typed<String, Value>, bool)> {
         self.asked.as_ref().map(|(typed, started)| (typed, *started))
     }
 

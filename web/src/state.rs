@@ -137,9 +137,9 @@ impl<T: Scalar> State<T> {
     pub fn solve(&mut self, case: &Case, from_last: bool, observe: Observe<'_>) -> Outcome<(Value, bool)> {
         let shape = self.surface.grid().shape();
         let full = self.full_pressure(&[case.load()?])?;
-        let nested = case.asked(full, false)?.nested == Some(true);
+        let nested = case.request(full, false)?.nested == Some(true);
         let started = self.known().is_some_and(|gap| from_last && gap.dim() == shape && !nested);
-        let asked = &case.asked(full, started)?;
+        let asked = &case.request(full, started)?;
         let adheres = case.scene().adhesion.adheres();
         let start = self.last.take().map(|last| last.found.solution.gap).or(self.before.take()).filter(|_| started);
         if !started {

@@ -9,6 +9,6 @@ mod tip;
 mod ways;
 
 pub use curve::{Curve, Fit, Parameters, Scales, Seen, Side, Sides};
-pub use search::{Asked, greatest_root};
+pub use search::{Search, greatest_root};
 pub use squares::Prediction;
 pub use tip::{Chain, Contact, Knot, Model, Scale};

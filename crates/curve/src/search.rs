@@ -24,7 +24,7 @@ const AROUND: [f64; 4] = [0.75, 1.5, 2.25, 3.0];
 
 /// What is searched for.
 #[derive(Clone, Debug)]
-pub struct Asked<'a> {
+pub struct Search<'a> {
     /// the models
     pub models: &'a [Model],
     /// the models of the fits and their logarithms of the Tabor parameter, by models, in order
@@ -41,7 +41,7 @@ pub struct Asked<'a> {
     pub least: f64,
 }
 
-impl Asked<'_> {
+impl Search<'_> {
     /// The best fits of a curve, in the order of the rows, with others at more Tabor parameters among the rows of the
     /// full model.
     #[must_use]

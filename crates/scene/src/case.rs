@@ -10,7 +10,7 @@ use asperity::adhesion::Formula;
 pub use self::maps::{Map, Maps, complete, sided};
 pub use self::part::Part;
 pub use self::posed::Posed;
-use crate::key::{Adhesion, After, Asked, Branches, Given, Load, Quantities, Scene, Skin, Symbol, worded};
+use crate::key::{Adhesion, After, Branches, Given, Load, Quantities, Request, Scene, Skin, Symbol, worded};
 use crate::outcome::Outcome;
 
 /// What a face gives as objects, in the place of keys.
@@ -152,10 +152,10 @@ impl Case {
     /// given or the default.
     ///
     /// # Errors
-    /// As [`Case::load`], [`Case::after`] and [`Asked::check`].
-    pub fn asked(&self, full: f64, started: bool) -> Outcome<Asked> {
+    /// As [`Case::load`], [`Case::after`] and [`Request::check`].
+    pub fn request(&self, full: f64, started: bool) -> Outcome<Request> {
         self.after(false)?;
-        let asked = self.worded(self.given.asked(self.load()?, full))?;
+        let asked = self.worded(self.given.request(self.load()?, full))?;
         self.worded(asked.check(&self.scene.adhesion, self.scene.method, started))?;
         Ok(asked)
     }

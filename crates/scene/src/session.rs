@@ -24,7 +24,7 @@ use crate::Either;
 use crate::account::row::Kind;
 use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
 use crate::case::{Part, Posed};
-use crate::key::{After, Asked, Constraint, Goal, Notice, Precision, Scalar, Scene, Skin, Units, worded};
+use crate::key::{After, Constraint, Goal, Notice, Precision, Request, Scalar, Scene, Skin, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
@@ -187,8 +187,8 @@ impl<T: Scalar> Session<T> {
     ///
     /// # Errors
     /// Errors of the solvers of the library, a solve that ran away, and warnings, if they are errors.
-    pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
-        let asked = Asked { control: self.on_whole(asked.control), ..*asked };
+    pub fn solve(&mut self, asked: &Request, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
+        let asked = Request { control: self.on_whole(asked.control), ..*asked };
         let found = self.find(&asked, start, observe)?;
         self.solved("solve", found)
     }

@@ -12,9 +12,9 @@ use asperity_scene::processes::Processes;
 use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, AdhesionKeys, After, Asked, Boundary, Case, Elastic, Found, Given, Goal, GridErrors, GridLevel,
-    Inputs, Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Reached, Row, Scene, Search, Session, Skin,
-    Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows, shortfalls,
+    Account, Adhesion, AdhesionKeys, After, Boundary, Case, Elastic, Found, Given, Goal, GridErrors, GridLevel, Inputs,
+    Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Reached, Request, Row, Scene, Search, Session,
+    Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows, shortfalls,
     without_files, worded,
 };
 use ndarray::Array2;
@@ -56,7 +56,7 @@ fn session(scene: &Scene, surface: Surface, is_strict: bool) -> Outcome<Session<
     Session::new(case.on(Maps::of(map), 1, &processes)?, is_strict, &processes)
 }
 
-fn solved(asked: &Asked) -> Solved<f64> {
+fn solved(asked: &Request) -> Solved<f64> {
     posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap()
 }
 
@@ -86,12 +86,12 @@ fn the_inputs_of_a_report_describe_the_scene_of_its_run() {
 
 #[test]
 fn an_account_has_the_keys_of_a_report() {
-    let asked = Asked {
+    let asked = Request {
         other_branch: true,
         stability: true,
         leave: true,
         after: After { stiffness: true, percolation: true, ..After::default() },
-        ..Asked::under(Control::MeanPressure(0.01))
+        ..Request::under(Control::MeanPressure(0.01))
     };
     let mut solved = solved(&asked);
     let report = json!(solved.account);
@@ -113,8 +113,8 @@ fn an_account_has_the_keys_of_a_report() {
 
 #[test]
 fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once() {
-    let under = Asked::under(Control::MeanPressure(0.01));
-    let mut nested = solved(&Asked { nested: Some(true), ..under });
+    let under = Request::under(Control::MeanPressure(0.01));
+    let mut nested = solved(&Request { nested: Some(true), ..under });
     assert!(nested.account.grid_error.is_none());
     nested.look().unwrap();
     let report = json!(nested.account);
@@ -122,7 +122,7 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
     assert_eq!(keys(&report["grid_error"]), names(&[GridErrors::NUMBERS]));
 
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
-    let Solved { found, account } = solved(&Asked { goal: Some(goal), ..under });
+    let Solved { found, account } = solved(&Request { goal: Some(goal), ..under });
     let report = json!(account);
     assert_eq!(keys(&report["accuracy"]), names(&[Reached::NUMBERS]));
     assert_eq!(keys(&report["grid_error"]["area"]), ["relative", "order", "rough"]);
@@ -132,11 +132,11 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
 
 #[test]
 fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
-    let asked = Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) };
+    let asked = Request { fraction: Some(0.2), ..Request::under(Control::MeanPressure(0.0)) };
     let Solved { account, .. } = solved(&asked);
     assert_eq!(keys(&json!(account)["search"]), names(&[Search::NUMBERS]));
 
-    let asked = Asked { stability: true, after: stiff(), ..Asked::under(Control::MeanPressure(0.01)) };
+    let asked = Request { stability: true, after: stiff(), ..Request::under(Control::MeanPressure(0.01)) };
     let solved = posed().solve(&asked, None, &mut |_, _, _| ControlFlow::Break(())).unwrap();
     let report = json!(solved.account);
     assert_eq!(report["status"], "stopped");
@@ -266,7 +266,7 @@ fn a_scene_with_a_hardness_is_data_and_one_without_still_reads() {
 
 #[test]
 fn fields_that_are_not_finite_are_refused() {
-    let Solved { mut found, .. } = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let Solved { mut found, .. } = solved(&Request::under(Control::MeanPressure(0.01)));
     check_finite(&found.solution).unwrap();
     found.solution.pressure[(3, 4)] = f64::NAN;
     let told = check_finite(&found.solution).unwrap_err();
@@ -277,7 +277,7 @@ fn fields_that_are_not_finite_are_refused() {
 
 #[test]
 fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_skin() {
-    let Solved { account, .. } = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let Solved { account, .. } = solved(&Request::under(Control::MeanPressure(0.01)));
     assert!(shortfalls(&account, Skin::Options).is_empty());
     let iterations = account.iterations;
     for (status, relative_error, load_error, errors, remedy) in [
@@ -305,7 +305,7 @@ fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_s
 
 #[test]
 fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_they_say_nothing() {
-    let Solved { account, .. } = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let Solved { account, .. } = solved(&Request::under(Control::MeanPressure(0.01)));
     let summary = |solves: &[&Account], unit| rows(solves, &Units::of_map(unit), Skin::Options);
     let text = |rows: &[(String, Vec<String>)], name: &str| {
         rows.iter().find(|(row, _)| row == name).map(|(_, texts)| texts.join(", "))
@@ -319,7 +319,7 @@ fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_the
     assert!(text(&metres, "mean gap").unwrap().ends_with(" mm") && text(&metres, "branch").is_some());
     assert_eq!((text(&bare, "wanted"), text(&bare, "stability"), text(&bare, "approach")), (None, None, None));
     let Solved { account: searched, .. } =
-        solved(&Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) });
+        solved(&Request { fraction: Some(0.2), ..Request::under(Control::MeanPressure(0.0)) });
     let both = summary(&[&account, &searched], None);
     assert!(text(&both, "wanted").unwrap().starts_with(", 20.0 %, after "), "{both:?}");
 }

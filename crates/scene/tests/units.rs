@@ -291,7 +291,7 @@ fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
     let settings = PathSettings::default();
     let begun = Pace::new(2, &settings);
     let mut pace = begun.behind(2, 1);
-    assert_eq!((pace.seconds_left(), pace.asked()), (None, None));
+    assert_eq!((pace.seconds_left(), pace.forecast()), (None, None));
     pace.begin(0.2);
     pace.add(0.21, false, 2.0);
     assert_eq!(pace.seconds_left(), None);
@@ -301,21 +301,21 @@ fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
     assert_eq!(pace.describe(), "4 states, 2 events, 40 % of the way, about 18 s left");
     // before the first state by the time of an operator application, and then more and more by the speed
     let mut fresh = begun;
-    assert_eq!((fresh.seconds_left(), fresh.asked()), (None, None));
+    assert_eq!((fresh.seconds_left(), fresh.forecast()), (None, None));
     fresh.expect(1e-3, false);
     assert_eq!(fresh.describe(), "0 states, 0 events, 0 % of the way, about 6.1 s left");
-    assert_eq!(fresh.asked().unwrap(), "101 states or more, 2 legs of 50 steps: about 6.1 s");
-    assert_eq!(fresh.behind(3, 0).asked(), None);
+    assert_eq!(fresh.forecast().unwrap(), "101 states or more, 2 legs of 50 steps: about 6.1 s");
+    assert_eq!(fresh.behind(3, 0).forecast(), None);
     let mut short = Pace::new(1, &settings.steps(1));
     short.expect(0.005, true);
-    assert_eq!(short.asked().unwrap(), "2 states or more, 1 leg of 1 step: about 60 s");
+    assert_eq!(short.forecast().unwrap(), "2 states or more, 1 leg of 1 step: about 60 s");
     short.add(0.5, false, 10.0);
     assert_eq!(short.seconds_left(), Some(0.5 * (0.5 * 60.0 + 0.5 * 20.0)));
     let mut endless = Pace::new(1, &settings.steps(usize::MAX));
     endless.expect(1e-3, false);
-    assert!(endless.asked().unwrap().starts_with(&format!("{} states or more", usize::MAX)));
+    assert!(endless.forecast().unwrap().starts_with(&format!("{} states or more", usize::MAX)));
     fresh.add(0.0, false, 0.5);
-    assert_eq!(fresh.asked(), None);
+    assert_eq!(fresh.forecast(), None);
     // past a limit point the load falls again, the way does not
     fresh.add(0.5, false, 0.5);
     fresh.add(0.4, false, 0.5);

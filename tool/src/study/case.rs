@@ -88,7 +88,7 @@ impl Run<'_> {
         let mut observe = |_: &Grid, _: &Iteration, _: f64| ControlFlow::Continue(());
         let (mut solved, pulled_off) = match loads.first() {
             Some(_) => {
-                let asked = problem.case.asked(full, start.is_some())?;
+                let asked = problem.case.request(full, start.is_some())?;
                 (session.solve(&asked, start, &mut observe)?, None)
             }
             None => {

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use crate::account::interface::touch;
 use crate::account::{Found, Row};
-use crate::key::{After, Asked, Scalar};
+use crate::key::{After, Request, Scalar};
 use crate::outcome::Outcome;
 use crate::session::course::Course;
 use crate::session::limit::Coarser;
@@ -73,7 +73,7 @@ impl<T: Scalar> Session<T> {
     ) -> Outcome<()> {
         let loads = way.loads();
         let control = way.control(&self.facts.scene);
-        self.worded(Asked { after, ..Asked::under(control) }.check(
+        self.worded(Request { after, ..Request::under(control) }.check(
             &self.facts.scene.adhesion,
             self.facts.scene.method,
             false,

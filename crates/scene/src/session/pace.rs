@@ -97,7 +97,7 @@ impl Pace {
     }
 
     /// What is asked for and what that is likely to take, before the first state of all.
-    pub fn asked(&self) -> Option<String> {
+    pub fn forecast(&self) -> Option<String> {
         let expected = self.expected.filter(|_| self.states == 0)?;
         let (legs, steps) = self.asked;
         let [least, legs, steps] =

@@ -16,7 +16,7 @@ use ndarray::Array2;
 
 use crate::account::{Found, PulledOff, Steadiness, check_finite};
 use crate::clock::Instant;
-use crate::key::{After, Asked, Constraint, Goal, Load, Scalar};
+use crate::key::{After, Constraint, Goal, Load, Request, Scalar};
 use crate::outcome::Outcome;
 use crate::session::fall::time;
 use crate::session::{Observe, Session};
@@ -176,7 +176,7 @@ impl<T: Scalar> Session<T> {
     ///
     /// # Errors
     /// Errors of the solvers of the library.
-    pub(super) fn find(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
+    pub(super) fn find(&mut self, asked: &Request, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
         let found = match asked.goal {
             Some(goal) => self.by_accuracy(goal, asked, &mut *observe)?,
             None => match self.on_nested_grids(asked, start.is_some(), &mut *observe)? {

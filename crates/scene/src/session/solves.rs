@@ -12,7 +12,7 @@ use ndarray::Array2;
 
 use crate::account::{Found, Left, OtherBranch, Reached, Search, Steadiness, Waves};
 use crate::clock::Instant;
-use crate::key::{Asked, Goal, Scalar};
+use crate::key::{Goal, Request, Scalar};
 use crate::session::posed::Body;
 use crate::session::{Observe, Session};
 
@@ -20,7 +20,7 @@ use crate::session::{Observe, Session};
 const MOST_DEPARTURES: usize = 10;
 
 impl<T: Scalar> Session<T> {
-    pub(super) fn by_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
+    pub(super) fn by_accuracy(&mut self, goal: Goal, asked: &Request, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), self.surface()?);
         let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
         let elastic = |grid| self.facts.scene.elastic.operator(grid);
@@ -44,7 +44,7 @@ impl<T: Scalar> Session<T> {
 
     pub(super) fn on_nested_grids(
         &mut self,
-        asked: &Asked,
+        asked: &Request,
         started: bool,
         observe: Observe<'_>,
     ) -> Result<Option<Found<T>>> {
@@ -90,7 +90,7 @@ impl<T: Scalar> Session<T> {
 
     pub(super) fn on_one_grid(
         &mut self,
-        asked: &Asked,
+        asked: &Request,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
     ) -> Result<Found<T>> {

@@ -43,10 +43,10 @@ impl Given {
     ///
     /// # Errors
     /// As [`Given::after`] and [`Given::goal`].
-    pub fn asked(&self, load: Load, full: f64) -> Result<Asked, String> {
+    pub fn request(&self, load: Load, full: f64) -> Result<Request, String> {
         let NestedKeys { nested, no_nested } = self.keys();
         let (FindingsKeys { leave, .. }, SolverKeys { branch, .. }) = (self.keys(), self.keys());
-        Ok(Asked {
+        Ok(Request {
             fraction: load.fraction(),
             nested: nested.or(no_nested.map(|denied| !denied)),
             other_branch: branch == Some(Branches::Both),
@@ -54,7 +54,7 @@ impl Given {
             leave,
             after: self.after()?,
             goal: self.goal()?,
-            ..Asked::under(load.control(full))
+            ..Request::under(load.control(full))
         })
     }
 
@@ -69,7 +69,7 @@ impl Given {
 
 /// The load of a solve, and the findings that are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asked {
+pub struct Request {
     /// The load; of no meaning where a contact fraction is wanted.
     pub control: Control,
     /// The contact fraction for which a load is to be found, if one is.
@@ -88,7 +88,7 @@ pub struct Asked {
     pub goal: Option<Goal>,
 }
 
-impl Asked {
+impl Request {
     /// The solution under a load, and nothing else.
     pub fn under(control: Control) -> Self {
         let (fraction, nested, after, goal) = (None, None, After::default(), None);
