@@ -31,7 +31,7 @@ use asperity::{Branch, Control, Real, Report, Status};
 use asperity_flow::Axis;
 use serde::Serialize;
 
-pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step};
+pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Refinement, Search, Steadiness, Step};
 pub use self::findings::{Conducted, Findings};
 pub use self::found::{Found, Sight, check_finite};
 pub(crate) use self::found::{Waves, warnings_of};
@@ -94,7 +94,7 @@ record! {
         /// Why `grid_error` has no error of the area, or of the quantity that has an accuracy.
         grid_error_reason: Option<String> = None,
         /// End of a solve to an accuracy.
-        accuracy: Option<Reached> = found.accuracy,
+        accuracy: Option<Refinement> = found.accuracy,
         /// Search for the load of a contact fraction.
         search: Option<Search> = found.search,
         /// Mean gap.

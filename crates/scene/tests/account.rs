@@ -13,7 +13,7 @@ use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, AdhesionKeys, After, Boundary, Case, Elastic, Found, Given, Goal, GridErrors, GridLevel, Inputs,
-    Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Reached, Request, Row, Scene, Search, Session,
+    Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row, Scene, Search, Session,
     Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows, shortfalls,
     without_files, worded,
 };
@@ -124,7 +124,7 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
     let Solved { found, account } = solved(&Request { goal: Some(goal), ..under });
     let report = json!(account);
-    assert_eq!(keys(&report["accuracy"]), names(&[Reached::NUMBERS]));
+    assert_eq!(keys(&report["accuracy"]), names(&[Refinement::NUMBERS]));
     assert_eq!(keys(&report["grid_error"]["area"]), ["relative", "order", "rough"]);
     let shape = found.refined.unwrap().grid().shape();
     assert_eq!(report["shape"], json!([shape.0, shape.1]));

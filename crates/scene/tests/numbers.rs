@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use asperity_scene::legs::CASE;
 use asperity_scene::{
     ATTRIBUTES, Account, Adhesion, Conducted, CycleLimit, Elastic, GROUPS, GridErrors, GridLevel, Inputs, Left,
-    Measure, Narrowest, Number, OF_ADHESION, OtherBranch, PulledOff, Reached, Row, Search, Slopes, Steadiness, Step,
+    Measure, Narrowest, Number, OF_ADHESION, OtherBranch, PulledOff, Refinement, Row, Search, Slopes, Steadiness, Step,
     Transmissivity,
 };
 
@@ -18,7 +18,7 @@ const TABLES: [(&str, &str, &[Number]); 10] = [
     ("OtherBranch", "other_branch", OtherBranch::NUMBERS),
     ("GridLevel", "levels", GridLevel::NUMBERS),
     ("GridErrors", "grid_error", GridErrors::NUMBERS),
-    ("Reached", "accuracy", Reached::NUMBERS),
+    ("Refinement", "accuracy", Refinement::NUMBERS),
     ("Search", "search", Search::NUMBERS),
     ("Steadiness", "stability", Steadiness::NUMBERS),
     ("Conducted", "conductance", Conducted::NUMBERS),

@@ -51,7 +51,7 @@ class GridErrors(TypedDict):
     pressure: GridError | None
 
 
-class Reached(TypedDict):
+class Refinement(TypedDict):
     """The entries of ``accuracy``."""
 
     wanted: float
@@ -140,7 +140,7 @@ class Report(TypedDict):
     equivalent_applications: float | None
     grid_error: GridErrors | None
     grid_error_reason: str | None
-    accuracy: Reached | None
+    accuracy: Refinement | None
     search: Search | None
     mean_gap: float
     mean_pressure: float

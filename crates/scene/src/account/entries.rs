@@ -117,7 +117,7 @@ impl GridErrors {
 record! {
     /// The end of a solve to an accuracy.
     #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-    Reached of (wanted: f64, of: Quantity, reached: bool, refinable: bool, unaffordable: Option<((usize, usize), f64)>) {
+    Refinement of (wanted: f64, of: Quantity, reached: bool, refinable: bool, unaffordable: Option<((usize, usize), f64)>) {
         /// Relative error that was wanted.
         wanted: f64 = wanted,
         /// Quantity that has it.

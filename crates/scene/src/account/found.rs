@@ -12,7 +12,7 @@ use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::{Array2, ArrayView2};
 
-use crate::account::{Findings, GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
+use crate::account::{Findings, GridErrors, Left, OtherBranch, Refinement, Search, Steadiness, Step};
 use crate::clock::Instant;
 use crate::key::{Notice, record};
 
@@ -30,7 +30,7 @@ record! {
         /// The surface on the grid of the solution, if an accuracy was asked for.
         refined: Option<Surface> = None,
         /// The end of a solve to an accuracy, if one was asked for.
-        accuracy: Option<Reached> = None,
+        accuracy: Option<Refinement> = None,
         /// The search for the load of a contact fraction, if there was one.
         search: Option<Search> = None,
         /// The equilibrium on the other branch, if both are asked for and the solution has a branch.

@@ -4,7 +4,7 @@ use asperity::Status;
 use asperity::accuracy::{GridError, Plan};
 use asperity::stability::Verdict;
 
-use crate::account::{Account, Reached, Search};
+use crate::account::{Account, Refinement, Search};
 use crate::key::{Boundary, GIB, Goal, Precision, Skin, worded};
 use crate::numbers::percent;
 
@@ -70,11 +70,11 @@ pub(super) const UNREFINABLE: &str = "a single node, absent nodes, steps and pla
                                       are known on this grid alone: give a finer one";
 
 /// The reason why an accuracy was not reached, with a remedy.
-fn inaccurate(account: &Account, reached: &Reached) -> String {
+fn inaccurate(account: &Account, reached: &Refinement) -> String {
     reached.missed(&estimate(account), "the solve has not converged")
 }
 
-impl Reached {
+impl Refinement {
     /// An accuracy that was not reached, with the error that is estimated instead, and the reason, on a grid that could be
     /// refined the other one.
     pub(crate) fn missed(&self, estimate: &str, other: &str) -> String {

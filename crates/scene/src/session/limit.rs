@@ -10,7 +10,7 @@ use asperity::{AdhesionLaw, Control, Real, Solver, Status, Surface};
 use ndarray::Array2;
 use serde::Serialize;
 
-use crate::account::{Reached, bytes};
+use crate::account::{Refinement, bytes};
 use crate::case::Part;
 use crate::key::{After, ENERGY_PER_AREA, Goal, PRESSURE, Scalar, Skin, record, worded};
 use crate::numbers::percent;
@@ -46,7 +46,7 @@ pub struct CycleLimits {
     pub levels: Vec<CycleLevel>,
     /// The end of a cycle to an accuracy.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<Reached>,
+    pub accuracy: Option<Refinement>,
     #[serde(skip)]
     told: LoopLimit,
 }
@@ -78,13 +78,13 @@ pub(super) enum Coarser<T: Scalar> {
 /// The grid that was chosen for an accuracy.
 pub(super) struct Chosen {
     levels: Vec<Level>,
-    accuracy: Reached,
+    accuracy: Refinement,
     pub surface: Arc<Surface>,
 }
 
 impl CycleLimits {
     /// The limits by a cycle on some grids, the finest last, to an accuracy, if one was asked for.
-    fn of(levels: &[Level], accuracy: Option<Reached>) -> Option<Self> {
+    fn of(levels: &[Level], accuracy: Option<Refinement>) -> Option<Self> {
         let [.., (_, coarse), (shape, fine)] = levels else { return None };
         let told = LoopLimit::of(*shape, fine, coarse);
         let level = |&(shape, PathEnd { work, work_error, greatest_tension, .. }): &Level| CycleLevel {
@@ -97,7 +97,7 @@ impl CycleLimits {
         Some(Self {
             limit: CycleLimit::of(told),
             levels: levels.iter().map(level).collect(),
-            accuracy: accuracy.map(|asked| Reached { reached: reached(asked.of) <= asked.wanted, ..asked }),
+            accuracy: accuracy.map(|asked| Refinement { reached: reached(asked.of) <= asked.wanted, ..asked }),
             told,
         })
     }
@@ -162,7 +162,7 @@ impl<T: Scalar> Session<T> {
         (self.grid, self.law, self.surface) = (*surface.grid(), law, Arc::downgrade(&surface));
         self.body = Body::Surface(surface.clone());
         self.facts.part = self.facts.part.on(self.grid)?;
-        let accuracy = Reached { wanted: goal.accuracy, of: goal.of, reached: false, refinable, unaffordable };
+        let accuracy = Refinement { wanted: goal.accuracy, of: goal.of, reached: false, refinable, unaffordable };
         self.coarser = Some(Coarser::Behind(Box::new(Chosen { levels, accuracy, surface })));
         Ok(chosen)
     }

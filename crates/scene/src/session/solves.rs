@@ -10,7 +10,7 @@ use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
 use asperity::{ContactConstraint, ContactSearch, Grid, Nested, Result, Solution, Start, Status};
 use ndarray::Array2;
 
-use crate::account::{Found, Left, OtherBranch, Reached, Search, Steadiness, Waves};
+use crate::account::{Found, Left, OtherBranch, Refinement, Search, Steadiness, Waves};
 use crate::clock::Instant;
 use crate::key::{Goal, Request, Scalar};
 use crate::session::posed::Body;
@@ -35,7 +35,7 @@ impl<T: Scalar> Session<T> {
         )?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
-        let reached = Reached::of(goal.accuracy, goal.of, reached, refinable, unaffordable);
+        let reached = Refinement::of(goal.accuracy, goal.of, reached, refinable, unaffordable);
         let mut found = self.found(solution, clock)?;
         let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
         found.sight.estimate(&levels, nodes_per_wave);
