@@ -44,7 +44,7 @@ pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKey
 pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
 pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
-pub use self::given::{Choice, Given, Taken, Typed};
+pub use self::given::{Choice, Given, Readable, Typed};
 pub use self::keywords::KEYWORDS;
 pub use self::kind::{Form, Kind, Values, Word};
 pub use self::laws::{LAWS, Law, tabulated};

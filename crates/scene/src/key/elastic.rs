@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Boundary, ENERGY, Form, Given, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Taken, Units, Word, keys, needed,
+    Boundary, ENERGY, Form, Given, Keys, Kind, LENGTH, PRESSURE, Range, Readable, Symbol, Units, Word, keys, needed,
     record,
 };
 
@@ -107,10 +107,10 @@ record! {
     }
 }
 
-impl Taken for Option<Base> {
+impl Readable for Option<Base> {
     const FORM: Form = Form::Word;
 
-    fn taken(given: &Given, key: &str) -> Self {
+    fn read(given: &Given, key: &str) -> Self {
         given.named(key)
     }
 }

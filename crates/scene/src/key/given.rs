@@ -212,8 +212,8 @@ impl Given {
     }
 
     /// What was given for a key, in the form of a field.
-    pub fn taken<T: Taken>(&self, name: &str) -> T {
-        T::taken(self, name)
+    pub fn field<T: Readable>(&self, name: &str) -> T {
+        T::read(self, name)
     }
 
     /// The numbers of a key.
@@ -276,20 +276,20 @@ impl Given {
 }
 
 /// The form in which a field of a list has what was given for its key.
-pub trait Taken: Sized {
+pub trait Readable: Sized {
     /// The form of the values of the key.
     const FORM: Form;
 
     /// What was given for a key.
-    fn taken(given: &Given, key: &str) -> Self;
+    fn read(given: &Given, key: &str) -> Self;
 }
 
-macro_rules! taken {
+macro_rules! readable {
     ($($type:ty: $form:ident = |$value:ident| $of:expr;)+) => {
-        $(impl Taken for $type {
+        $(impl Readable for $type {
             const FORM: Form = Form::$form;
 
-            fn taken(given: &Given, key: &str) -> Self {
+            fn read(given: &Given, key: &str) -> Self {
                 let $value = given.value(key);
                 $of
             }
@@ -297,7 +297,7 @@ macro_rules! taken {
     };
 }
 
-taken! {
+readable! {
     Option<f64>: Number = |value| value?.as_f64();
     Vec<f64>: Numbers = |value| several(value, Value::as_f64);
     Option<u64>: Count = |value| value?.as_u64();
@@ -309,18 +309,18 @@ taken! {
     Option<bool>: Denial = |value| value?.as_bool();
 }
 
-impl Taken for PathBuf {
+impl Readable for PathBuf {
     const FORM: Form = Form::File;
 
-    fn taken(given: &Given, key: &str) -> Self {
-        Option::taken(given, key).unwrap_or_default()
+    fn read(given: &Given, key: &str) -> Self {
+        Option::read(given, key).unwrap_or_default()
     }
 }
 
-impl Taken for Option<PathBuf> {
+impl Readable for Option<PathBuf> {
     const FORM: Form = Form::File;
 
-    fn taken(given: &Given, key: &str) -> Self {
+    fn read(given: &Given, key: &str) -> Self {
         given.get(key)?.typed.first().map(PathBuf::from)
     }
 }
@@ -331,27 +331,27 @@ pub trait Choice: Default {
     fn named(word: &str) -> Option<Self>;
 }
 
-impl<C: Choice> Taken for C {
+impl<C: Choice> Readable for C {
     const FORM: Form = Form::Word;
 
-    fn taken(given: &Given, key: &str) -> Self {
-        Option::taken(given, key).unwrap_or_default()
+    fn read(given: &Given, key: &str) -> Self {
+        Option::read(given, key).unwrap_or_default()
     }
 }
 
-impl<C: Choice> Taken for Option<C> {
+impl<C: Choice> Readable for Option<C> {
     const FORM: Form = Form::Word;
 
-    fn taken(given: &Given, key: &str) -> Self {
+    fn read(given: &Given, key: &str) -> Self {
         C::named(given.word(key)?)
     }
 }
 
-impl<C: Choice> Taken for Vec<C> {
+impl<C: Choice> Readable for Vec<C> {
     const FORM: Form = Form::Words;
 
-    fn taken(given: &Given, key: &str) -> Self {
-        Vec::<String>::taken(given, key).iter().filter_map(|word| C::named(word)).collect()
+    fn read(given: &Given, key: &str) -> Self {
+        Vec::<String>::read(given, key).iter().filter_map(|word| C::named(word)).collect()
     }
 }
 

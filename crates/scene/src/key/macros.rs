@@ -21,13 +21,13 @@ macro_rules! keys {
                 section: $section,
                 kind: {
                     let kind = $kind;
-                    assert!(<$type as $crate::Taken>::FORM.is(kind.form()));
+                    assert!(<$type as $crate::Readable>::FORM.is(kind.form()));
                     kind
                 },
             },)+)*];
 
             fn of(given: &$crate::Given) -> Self {
-                Self { $($($name: given.taken($crate::Key::name_of(stringify!($name))),)+)* }
+                Self { $($($name: given.field($crate::Key::name_of(stringify!($name))),)+)* }
             }
         }
     };

@@ -6,7 +6,9 @@ use asperity::solver::Method;
 use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
 
-use crate::key::{Adhesion, AdhesionKeys, Elastic, Form, Given, Kind, Range, SurfaceKeys, Taken, Word, choice, keys};
+use crate::key::{
+    Adhesion, AdhesionKeys, Elastic, Form, Given, Kind, Range, Readable, SurfaceKeys, Word, choice, keys,
+};
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
 /// has the keys of a report, which are left out where they have their defaults.
@@ -84,10 +86,10 @@ keys! {
     }
 }
 
-impl Taken for Option<Method> {
+impl Readable for Option<Method> {
     const FORM: Form = Form::Word;
 
-    fn taken(given: &Given, key: &str) -> Self {
+    fn read(given: &Given, key: &str) -> Self {
         given.named(key)
     }
 }

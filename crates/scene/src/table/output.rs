@@ -23,19 +23,19 @@ pub fn commit(folder: OutputFolder) -> asperity::Result<()> {
 /// The error of a folder, with the option that replaces a file that exists.
 fn with_remedy(error: Error) -> Error {
     match error {
-        Error::File { path, reason, .. } if reason.starts_with("exists:") => taken(&path, "output folder"),
+        Error::File { path, reason, .. } if reason.starts_with("exists:") => refuse_existing(&path, "output folder"),
         other => other,
     }
 }
 
-fn taken(path: &Path, other: &str) -> Error {
+fn refuse_existing(path: &Path, other: &str) -> Error {
     Error::file(path, format!("exists: use --force to replace it, or choose another {other}"))
 }
 
 /// Refuses a file that exists, unless it may be replaced; `other` names what else may be chosen.
 pub fn check_free(path: &Path, replaceable: bool, other: &str) -> Outcome<()> {
     match path.exists() && !replaceable {
-        true => Err(taken(path, other).into()),
+        true => Err(refuse_existing(path, other).into()),
         false => Ok(()),
     }
 }
