@@ -54,7 +54,7 @@ struct Arguments {
 fn main() -> Outcome<()> {
     let Arguments { size, file, unloading, jkr } = arguments::read(include_str!("challenge.rs"));
     let surface = match &file {
-        Some(file) => given(file, size)?,
+        Some(file) => read_surface(file, size)?,
         None => drawn(size)?,
     };
     let (statistics, (side, _)) = (surface.statistics(), surface.grid().lengths());
@@ -109,7 +109,7 @@ fn distribution(what: &str, decimals: usize, rows: &[Row], of: impl Fn(&Row) -> 
 }
 
 /// The surface of the file, turned over, as peaks touch here.
-fn given(file: &PathBuf, size: usize) -> Outcome<Surface> {
+fn read_surface(file: &PathBuf, size: usize) -> Outcome<Surface> {
     let grid = Grid::square(size, SIDE)?;
     Ok(Surface::new(grid, -read_fourier(file, grid, SIDE)?.heights())?)
 }

@@ -83,7 +83,7 @@ impl Slab {
     }
 
     /// The slab of another grid that this process holds.
-    pub(crate) fn of(&self, shape: (usize, usize)) -> Self {
+    pub(crate) fn for_grid(&self, shape: (usize, usize)) -> Self {
         Self::new(shape, self.ranks)
     }
 

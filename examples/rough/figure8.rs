@@ -22,7 +22,7 @@ pub enum Load {
 }
 
 impl Load {
-    fn of(self, point: &Point) -> f64 {
+    fn value(self, point: &Point) -> f64 {
         match self {
             Self::External => point.external,
             Self::Contact => point.contact,
@@ -37,7 +37,7 @@ impl Load {
 /// of the fit.
 pub fn tangent(points: &[Point], load: Load, area: fn(&Point) -> f64, work: f64) -> (f64, f64) {
     let small = points.iter().filter(|p| p.external > 0.0 && p.external <= SMALL * (1.0 + 1e-9));
-    let small: Vec<(f64, f64)> = small.map(|p| (load.of(p), area(p))).collect();
+    let small: Vec<(f64, f64)> = small.map(|p| (load.value(p), area(p))).collect();
     let largest = small.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(p.0));
     let first = usize::from(work == 0.0 || load == Load::Contact);
     // the normal equations of area/x = Σ cₖ xᵏ⁻¹, x in units of the largest load
@@ -131,7 +131,8 @@ fn panel(
         .label("κ from 1.60 (Persson) to 2.51 (BGT)")
         .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 24, y + 5)], grey.filled()));
     for (curve, colour) in curves.iter().zip(COLOURS) {
-        let points: Vec<_> = curve.points.iter().map(|p| (load.of(p), 100.0 * p.nodes)).filter(|p| inside(p)).collect();
+        let points: Vec<_> =
+            curve.points.iter().map(|p| (load.value(p), 100.0 * p.nodes)).filter(|p| inside(p)).collect();
         let (offset, slope) = tangent(&curve.points, load, |p| p.nodes, curve.work);
         // (the tangent as far as there is room)
         let end = right.min((top - offset) / slope).min(SMALL);

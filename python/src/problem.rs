@@ -55,7 +55,7 @@ impl Problem {
     /// The case with what is given for several parts of a call.
     fn case(&mut self, parts: &[Given]) -> PyResult<Case> {
         let case = self.case.with(parts).map_err(refusal_of_session)?;
-        either!(session = self.session() => session.inputs.given = case.quantities().given());
+        either!(session = self.session() => session.inputs.given = case.quantities().texts());
         Ok(case)
     }
 

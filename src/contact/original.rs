@@ -93,7 +93,7 @@ impl Original {
     ///
     /// # Errors
     /// [`Error::Shape`] if the field is not of the whole.
-    pub fn of<A: Clone>(&self, field: ArrayView2<'_, A>) -> Result<Array2<A>> {
+    pub fn crop<A: Clone>(&self, field: ArrayView2<'_, A>) -> Result<Array2<A>> {
         Error::shape("field", field.dim(), self.whole.shape())?;
         let (nx, ny) = self.grid.shape();
         Ok(field.slice_axis(Axis(0), Slice::from(..nx)).slice_axis(Axis(1), Slice::from(..ny)).to_owned())
@@ -122,7 +122,7 @@ impl Original {
     }
 
     fn contact<T: Real>(&self, gap: ArrayView2<'_, T>, pressure: ArrayView2<'_, T>) -> Result<Array2<bool>> {
-        self.of(contact_map(gap, pressure).view())
+        self.crop(contact_map(gap, pressure).view())
     }
 
     /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force and of
@@ -133,7 +133,7 @@ impl Original {
     pub fn of_solution<T: Real>(&self, solution: &Solution<T>) -> Result<Solution<T>> {
         let contact_nodes = self.contact_nodes(solution)?;
         let [gap, pressure, contact_pressure] =
-            [&solution.gap, &solution.pressure, &solution.contact_pressure].map(|field| self.of(field.view()));
+            [&solution.gap, &solution.pressure, &solution.contact_pressure].map(|field| self.crop(field.view()));
         let gap = gap?;
         let report = Report {
             contact_nodes,
@@ -142,8 +142,8 @@ impl Original {
             control: solution.report.control.of_share(self.share()),
             ..solution.report.clone()
         };
-        let plastic_depth = solution.plastic_depth.as_ref().map(|depth| self.of(depth.view())).transpose()?;
-        let touched = solution.touched.as_ref().map(|touched| self.of(touched.view())).transpose()?;
+        let plastic_depth = solution.plastic_depth.as_ref().map(|depth| self.crop(depth.view())).transpose()?;
+        let touched = solution.touched.as_ref().map(|touched| self.crop(touched.view())).transpose()?;
         let (pressure, contact_pressure) = (pressure?, contact_pressure?);
         Ok(Solution {
             gap,
@@ -215,8 +215,8 @@ mod tests {
             let whole = original.mirrored(&field).unwrap();
             assert_eq!((whole.dim(), whole.row(0)), (shape, wanted.view()));
             assert_eq!(whole.row(2), whole.row(1));
-            assert_eq!(original.of(whole.view()).unwrap(), field);
-            assert!(original.of(field.view()).is_err() && original.mirrored(&whole).is_err());
+            assert_eq!(original.crop(whole.view()).unwrap(), field);
+            assert!(original.crop(field.view()).is_err() && original.mirrored(&whole).is_err());
         }
     }
 

@@ -103,7 +103,7 @@ impl CoarseSpace {
     /// if the rounded matrix is not positive.
     pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
         let Self { waves, moments, factor, workspace, apart: [load, response], vector, .. } = self;
-        moments.of(contact);
+        moments.compute(contact);
         let dimension = vector.len();
         factor[0] = moments.at(0, 0).re;
         for (k, wave) in waves.iter().enumerate().skip(1) {

@@ -94,7 +94,7 @@ impl Part {
         let (dx, dy) = surface.grid().spacing();
         let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
         let shape = (self.x.len(), self.y.len());
-        let grid = Grid::new(shape, lengths)?.within(surface.grid().slab().of(shape))?;
+        let grid = Grid::new(shape, lengths)?.within(surface.grid().slab().for_grid(shape))?;
         Surface::new(grid, self.cut(surface.heights(), surface.grid(), &grid))
     }
 

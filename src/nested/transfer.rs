@@ -26,7 +26,7 @@ const LEAST: f64 = f32::MIN_POSITIVE as f64;
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
     let slab = surface.grid().slab();
-    let grid = Grid::new(shape, surface.grid().lengths())?.within(slab.of(shape))?;
+    let grid = Grid::new(shape, surface.grid().lengths())?.within(slab.for_grid(shape))?;
     let (nx, ny) = surface.grid().shape();
     let sides = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| [from, to].map(Side::periodic));
     let [along_x, along_y] = sides.map(|[from, to]| places(from, to));

@@ -35,14 +35,14 @@ fn sphere(n: usize) -> Problem<f64> {
     Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), Jkr::new(WORK).unwrap()).unwrap()
 }
 
-fn found(problem: &mut Problem<f64>, tolerance: f64) -> FoundPullOff<f64> {
+fn find(problem: &mut Problem<f64>, tolerance: f64) -> FoundPullOff<f64> {
     let found = PullOff::default().tolerance(tolerance).find(&mut Solver::default(), problem).unwrap();
     assert!(found.reached);
     found
 }
 
 fn pull_off(problem: &mut Problem<f64>, tolerance: f64) -> Report {
-    found(problem, tolerance).solution.report
+    find(problem, tolerance).solution.report
 }
 
 /// The value to which those on a grid and on one of half its spacing converge in the first order.
@@ -194,7 +194,7 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
     let on = |n: usize, surface: &Surface| {
         let grid = Grid::square(n, side).unwrap();
         let half_space = Boussinesq::new(grid, 1.0).unwrap();
-        found(&mut Problem::new(surface, half_space, Jkr::new(work).unwrap()).unwrap(), 3e-3)
+        find(&mut Problem::new(surface, half_space, Jkr::new(work).unwrap()).unwrap(), 3e-3)
     };
     let punch = [48, 96].map(|n| {
         let grid = Grid::square(n, side).unwrap();
@@ -235,7 +235,7 @@ fn pillars_that_repeat_have_a_limit_of_their_pull_off() {
     let limits = [deep, surface_with_absent(grid, heights).unwrap()].map(|surface| {
         let half_space = Westergaard::new(grid, 1.0).unwrap();
         let mut problem = Problem::new(&surface, half_space, Jkr::new(1e-4).unwrap()).unwrap();
-        found(&mut problem, 3e-3).limit().unwrap().unwrap()
+        find(&mut problem, 3e-3).limit().unwrap().unwrap()
     });
     assert!((limits[0] / limits[1] - 1.0).abs() < 0.01, "{limits:?}");
 }

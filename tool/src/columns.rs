@@ -49,7 +49,7 @@ impl<'a> Columns<'a> {
 
     /// The unit of a column.
     pub fn unit(&self, name: &str) -> Option<String> {
-        self.units.of(self.measure(name).dimension()?)
+        self.units.unit(self.measure(name).dimension()?)
     }
 
     /// A number of a column for people.

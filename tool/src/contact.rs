@@ -181,7 +181,7 @@ impl Found<'_> {
             let (at, density) = *points.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
             Some([window.from, window.to].map(|value| (value, density * (value / at).powf(power))).to_vec())
         });
-        let [x_unit, y_unit] = dimensions.map(|dimension| self.units.of(dimension));
+        let [x_unit, y_unit] = dimensions.map(|dimension| self.units.unit(dimension));
         let chart = Chart {
             title: &format!("Distribution of the {label}"),
             caption: caption.as_deref().unwrap_or_default(),

@@ -81,7 +81,9 @@ pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColou
     let out = out.map_or_else(beside, Path::to_path_buf);
     let read: Vec<_> = match folder {
         true => solve::files().iter().filter(|name| *name != PAGE).map(|name| results.join(name)).collect(),
-        false => vec![results.to_path_buf(), scene::beside(results), warnings::beside(results), state_path(results)],
+        false => {
+            vec![results.to_path_buf(), scene::path_for(results), warnings::path_for(results), state_path(results)]
+        }
     };
     check_apart(&out, read.iter().map(PathBuf::as_path))?;
     let file = OutputFile::create(&out, force)?;

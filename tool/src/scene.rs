@@ -41,7 +41,7 @@ impl SceneFile {
 
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
     pub fn quantities(&self) -> Option<serde_json::Value> {
-        self.given.quantities().given()
+        self.given.quantities().texts()
     }
 
     /// The scene file, to be put into `folder`.
@@ -91,7 +91,7 @@ impl SceneFile {
     /// Refuses a `file` next to which there is the scene of another run, unless `force` replaces it, or a file that was
     /// not written as a scene.
     pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
-        let path = beside(file);
+        let path = path_for(file);
         self.check(&path)?;
         // whatever version has written it
         let rest = |text: &str| text.split_once('\n').map(|(_, rest)| rest.to_owned());
@@ -101,14 +101,14 @@ impl SceneFile {
 
     /// The file FILE.scene.toml next to `file`, written but for its name.
     pub fn written_beside(&self, file: &Path) -> Outcome<OutputFile> {
-        let scene = OutputFile::create(&beside(file), true)?;
+        let scene = OutputFile::create(&path_for(file), true)?;
         scene.write(|path| write_text(path, &self.text(folder_of(file))))?;
         Ok(scene)
     }
 }
 
 /// The path of the scene next to a file.
-pub fn beside(file: &Path) -> PathBuf {
+pub fn path_for(file: &Path) -> PathBuf {
     with_suffix(file, &format!(".{NAME}"))
 }
 

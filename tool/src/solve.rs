@@ -1,6 +1,6 @@
 //! `asperity solve`: the equilibrium at one load.
 
-mod beside;
+mod others;
 mod written;
 
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use asperity_scene::{
 };
 use serde_json::json;
 
-use self::beside::{BESIDE, Named, fields_beside};
+use self::others::{Named, OTHERS, other_fields};
 use crate::command::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
@@ -97,7 +97,7 @@ const PICTURES: [&str; 2] = ["contact", "pressure"];
 
 /// All files that a solve may leave.
 pub fn files() -> Vec<String> {
-    results::files(&[&FIELDS[..], &BESIDE, &[NPZ, VTI, DISTRIBUTION]].concat(), &PICTURES)
+    results::files(&[&FIELDS[..], &OTHERS, &[NPZ, VTI, DISTRIBUTION]].concat(), &PICTURES)
 }
 
 /// Runs the command; whether it converged.
@@ -158,7 +158,7 @@ impl Job<'_> {
     /// The files of these options.
     fn names(&self) -> Vec<String> {
         let (options, FormatKeys { picture_format }) = (self.options, self.problem.case.given().keys());
-        let arrays = FIELDS.into_iter().chain(options.beside(&self.problem.case));
+        let arrays = FIELDS.into_iter().chain(options.other_files(&self.problem.case));
         let arrays = arrays.filter(|_| options.writes(Format::Npy));
         let archives =
             [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
@@ -201,7 +201,7 @@ impl Job<'_> {
         let Solved { found, account } = solved;
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
-        let mut beside = fields_beside(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
+        let mut beside = other_fields(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
 
         let mut told = Vec::new();
         if let Some(results) = &self.results {

@@ -145,7 +145,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     }
     let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let others = [options.out.clone(), scene::beside(&options.out)];
+    let others = [options.out.clone(), scene::path_for(&options.out)];
     if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
         return Err(format!("--psd is {}, the same as --out: give it a name of its own", options.out.display()).into());
     }

@@ -283,7 +283,7 @@ impl<T: Scalar> Table<'_, T> {
             ("spring_stiffness".to_owned(), problem.case.given().spring_stiffness().into()),
         ]);
         outcome.extend(found.as_object().cloned().unwrap_or_default());
-        outcome.insert("warnings".to_owned(), json!(self.session.warnings.found()));
+        outcome.insert("warnings".to_owned(), json!(self.session.warnings.all()));
         report::report(self.session.command(), outcome.into(), &self.session.inputs)
     }
 

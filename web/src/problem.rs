@@ -81,7 +81,7 @@ impl Problem {
         let loads = case.loads()?;
         let full = either!(state = &self.state => state.full_pressure(&loads))?;
         let way = Way::cycle(&loads, full, case.given().path())?;
-        either!(state = &mut self.state => state.begin(way, case.quantities().given()))
+        either!(state = &mut self.state => state.begin(way, case.quantities().texts()))
     }
 
     /// The next state along the loads; nothing at their end.

@@ -146,7 +146,7 @@ impl<T: Scalar> State<T> {
             self.session.renew()?;
         }
         let Inputs { given, initial_gap, .. } = &mut self.session.inputs;
-        (*given, *initial_gap) = (case.quantities().given(), started.then(|| START.to_owned()));
+        (*given, *initial_gap) = (case.quantities().texts(), started.then(|| START.to_owned()));
         let kept = start.clone().filter(|_| adheres);
         let mut solved = self.session.solve(asked, start, &mut |grid, state, tolerance| {
             observe(grid.nodes(), state, tolerance);

@@ -46,7 +46,7 @@ impl Prediction {
 impl Curve {
     /// The equilibria of parameters and the ways along them; the shift of the contact point.
     pub(crate) fn follow(&self, model: &Model, parameters: &Parameters, room: &mut Prediction) -> (f64, Scaled) {
-        let (length, force, shape, chain) = self.scale.of(self.contact(parameters));
+        let (length, force, shape, chain) = self.scale.apply(self.contact(parameters));
         let known = Some((model.number(), shape));
         if room.known != known {
             model.at(shape, &mut room.knots);

@@ -65,7 +65,7 @@ impl Chain {
 impl Scale {
     /// Length, force and shape of a contact, and how they change.
     #[must_use]
-    pub fn of(&self, contact: Contact) -> (f64, f64, f64, Chain) {
+    pub fn apply(&self, contact: Contact) -> (f64, f64, f64, Chain) {
         let third = 1.0 / 3.0;
         match *self {
             Self::Paraboloid(radius) => {

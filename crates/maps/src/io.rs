@@ -159,7 +159,7 @@ pub fn channels(name: &str, bytes: &[u8]) -> Result<Vec<Channel>> {
         Ok(Format::Text { binary: None }) => Text::read(bytes, &Reading::default()).and_then(|text| text.several()),
         _ => Ok(Vec::new()),
     };
-    found.map_err(|refusal| refusal.of(Path::new(name)))
+    found.map_err(|refusal| refusal.in_file(Path::new(name)))
 }
 
 /// Reads the rows of a height map that `rows` chooses by its shape (Nx, Ny), and tells that shape; otherwise as
@@ -201,7 +201,7 @@ pub fn read_rows(
         let (heights, shape) = read_npy_rows(&mut BufReader::new(file), size, rows)?;
         Ok((Topography::new(heights), shape))
     };
-    read().map_err(|refusal: Refusal| refusal.of(path))
+    read().map_err(|refusal: Refusal| refusal.in_file(path))
 }
 
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.

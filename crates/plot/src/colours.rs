@@ -145,7 +145,7 @@ impl Colours {
         if drawable(value) { value } else { f64::NAN }
     }
 
-    pub(super) fn of(&self, value: f64) -> Colour {
+    pub(super) fn colour(&self, value: f64) -> Colour {
         let (low, high) = self.limits;
         let colour = match self.colouring {
             Colouring::Clusters if value.is_nan() => return GREY,
@@ -175,10 +175,10 @@ impl Colours {
     pub(super) fn of_block(&self, values: impl Iterator<Item = f64> + Clone) -> Colour {
         let count = values.clone().count() as f64;
         if !self.colouring.is_of_classes() {
-            return self.of(values.map(|value| self.shown(value)).sum::<f64>() / count);
+            return self.colour(values.map(|value| self.shown(value)).sum::<f64>() / count);
         }
         let mut sums = [0.0; 3];
-        for colour in values.map(|value| self.of(self.shown(value))) {
+        for colour in values.map(|value| self.colour(self.shown(value))) {
             sums.iter_mut().zip(colour).for_each(|(sum, part)| *sum += f64::from(part));
         }
         sums.map(|sum| rounded(sum / count))
@@ -262,9 +262,9 @@ mod tests {
         let values = Array2::from_shape_fn((10, 10), |(i, _)| if i < 5 { -2.5e7 } else { 2e9 });
         let colours = Colours::new(values.view(), Colouring::Diverging, None);
         assert_eq!((colours.limits, colours.beyond()), ((-2.5e7, 2e9), (false, false)));
-        let zero = colours.of(0.0);
+        let zero = colours.colour(0.0);
         assert!(zero.iter().all(|c| *c > 230));
-        let (attraction, compression) = (colours.of(-2.5e7), colours.of(2e9));
+        let (attraction, compression) = (colours.colour(-2.5e7), colours.colour(2e9));
         assert!(attraction[2] > attraction[0] + 80 && compression[0] > compression[2] + 60);
     }
 
@@ -288,7 +288,7 @@ mod tests {
         values.iter_mut().take(5).for_each(|v| *v = 3.0);
         let colours = diverging(&values, None);
         assert_eq!((colours.limits, colours.beyond()), ((0.0, 3.0), (false, false)));
-        assert_eq!((colours.of(-1e-9), colours.load_beyond([""; 2], None)), (colours.of(0.0), None));
+        assert_eq!((colours.colour(-1e-9), colours.load_beyond([""; 2], None)), (colours.colour(0.0), None));
         // at limits that are given it is said, too, of each sign
         let values = ndarray::array![[-2.0, -6.0, 3.0, 1.0]];
         let found = diverging(&values, Some((-4.0, 2.0))).load_beyond(["tension", "compression"], None);

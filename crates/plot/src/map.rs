@@ -34,7 +34,7 @@ struct Sides {
 }
 
 /// The room that an axis takes at the left of a map, and the room that colour bars take at its right.
-fn beside(y: Option<&Axis>, bars: &[Bar]) -> (f64, f64) {
+fn measure_rooms(y: Option<&Axis>, bars: &[Bar]) -> (f64, f64) {
     let bars_room = bars.iter().map(|bar| room(&bar.axis)).fold(0.0, f64::max);
     let right = if bars.is_empty() { 3.0 * MARGIN } else { GAP + BAR + bars_room + MARGIN };
     (2.0 * MARGIN + y.map_or(0.0, room), right)
@@ -186,7 +186,7 @@ impl<'a> Map<'a> {
         }
         let along = |(low, high): (f64, f64)| {
             let value = move |k: usize| low + (high - low) * k as f64 / SHADES as f64;
-            (0..=SHADES).map(move |k| (colours.of(value(k)), three_digits(value(k), self.unit)))
+            (0..=SHADES).map(move |k| (colours.colour(value(k)), three_digits(value(k), self.unit)))
         };
         colours.ranges().into_iter().flat_map(along).chain(classes).collect()
     }
@@ -214,13 +214,13 @@ impl<'a> Map<'a> {
         // numbers at the sides depend on the height, and it on their widths
         for _ in 0..FITS {
             let (_, y, bars) = self.axes(colours, width, height);
-            let (left, right) = beside(y.as_ref(), &bars);
+            let (left, right) = measure_rooms(y.as_ref(), &bars);
             let found = paper.across(left + right, width)?;
             height *= if self.is_line() { 1.0 } else { found / width };
             width = found;
         }
         let (x, y, bars) = self.axes(colours, width, height);
-        let (left, right) = beside(y.as_ref(), &bars);
+        let (left, right) = measure_rooms(y.as_ref(), &bars);
         let width = paper.across(left + right, width)?;
         Ok((x, y, bars, Sides { left, width, right, height }))
     }
@@ -289,7 +289,7 @@ impl<'a> Map<'a> {
                 let first = values[[along.start, across.start]];
                 let is_one = along.len() == 1 && across.len() == 1;
                 let cells = along.flat_map(|ix| across.clone().map(move |iy| values[[ix, iy]]));
-                pixels.push(if is_one { colours.of(colours.shown(first)) } else { colours.of_block(cells) });
+                pixels.push(if is_one { colours.colour(colours.shown(first)) } else { colours.of_block(cells) });
             }
         }
         Image { area: plot, columns, pixels }

@@ -13,7 +13,7 @@ impl Hash {
     pub const NEW: Self = Self(0xcbf2_9ce4_8422_2325);
 
     /// The hash with some more bytes.
-    pub fn of(self, bytes: &[u8]) -> Self {
+    pub fn extend(self, bytes: &[u8]) -> Self {
         Self(bytes.iter().fold(self.0, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)))
     }
 

@@ -1,10 +1,10 @@
 //! Tables: a row for each state of a course, appended to a file as it comes, from which an interrupted run continues.
 
 pub mod csv;
+pub(crate) mod field_folder;
 pub(crate) mod fields;
 pub(crate) mod identity;
 pub mod journal;
-pub(crate) mod kept;
 pub mod legs;
 pub mod output;
 pub mod warnings;
@@ -19,9 +19,9 @@ use crate::account::{Row, Step};
 use crate::key::{Choice, Scalar, choice};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
+use crate::table::field_folder::FieldFolder;
 use crate::table::identity::Identity;
 use crate::table::journal::{Journal, Row as Line, State, Written, refused, state_path};
-use crate::table::kept::Kept;
 
 choice! {
     /// The format of a table, by the end of the names of its files.
@@ -129,7 +129,7 @@ impl Table {
             && before[crate::key!(Step, event)].is_null()
             && table.journal.is_some()
         {
-            table.kept().forget(table.rows - 1);
+            table.field_folder().forget(table.rows - 1);
         }
         Ok((table, Some(place)))
     }
@@ -137,12 +137,12 @@ impl Table {
     /// Begins the table, or continues it, in the first process.
     fn begin(&mut self) -> Outcome<Vec<u8>> {
         let &Opening { ref out, force, is_case, ref beside, .. } = &self.opening;
-        self.kept().check(force, out)?;
+        self.field_folder().check(force, out)?;
         let files = [state_path(out)].into_iter().chain(beside.clone()).chain([out.clone()]);
         self.made = files.filter(|path| !path.exists()).collect();
         let place = self.lock(force, is_case)?;
         if self.rows == 0 {
-            self.kept().clear();
+            self.field_folder().clear();
             remove(if force { &self.opening.beside } else { &[] });
         }
         Ok(place)
@@ -167,8 +167,8 @@ impl Table {
     }
 
     /// The folder of the fields.
-    fn kept(&self) -> Kept<'_> {
-        Kept(self.opening.fields.as_deref())
+    fn field_folder(&self) -> FieldFolder<'_> {
+        FieldFolder(self.opening.fields.as_deref())
     }
 
     /// Whether the next row has the place saved from which the one after it follows; on the first of several processes.
@@ -189,7 +189,7 @@ impl Table {
         solution: &Solution<T>,
         processes: &Processes,
     ) -> Outcome<()> {
-        self.kept().write(self.rows + 1, solution, processes)?;
+        self.field_folder().write(self.rows + 1, solution, processes)?;
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
             let text = self.opening.format.line(&row.cells(&self.opening.names));
@@ -198,7 +198,7 @@ impl Table {
         if let Some(step) = &row.step {
             let has_event = step.event.is_some();
             if !self.had_event && !has_event && self.journal.is_some() {
-                self.kept().forget(self.rows);
+                self.field_folder().forget(self.rows);
             }
             self.had_event = has_event;
         }

@@ -126,7 +126,7 @@ fn units(length: &str, pressure: &str) -> Units {
 #[test]
 fn units_of_a_dimension_follow_from_length_and_pressure() {
     let dimensions = [LENGTH, PRESSURE, FORCE, ENERGY_PER_AREA, PRESSURE_PER_LENGTH, PER_LENGTH, PER_PRESSURE];
-    let names = |units: Units| dimensions.map(|dimension| units.of(dimension).unwrap_or_default());
+    let names = |units: Units| dimensions.map(|dimension| units.unit(dimension).unwrap_or_default());
     assert_eq!(names(Units::si()), ["m", "Pa", "N", "J/m²", "Pa/m", "1/m", "1/Pa"]);
     assert_eq!(names(units("um", "MPa")), ["um", "MPa", "MPa·um²", "MPa·um", "MPa/um", "1/um", "1/MPa"]);
     assert_eq!(names(Units::of_map(Some("m"))), ["m", "", "", "", "", "1/m", ""]);

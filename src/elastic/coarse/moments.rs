@@ -32,7 +32,7 @@ impl Moments {
     }
 
     /// Takes the moments of a contact map, block by block in row-major order.
-    pub(super) fn of(&mut self, contact: &[f64]) {
+    pub(super) fn compute(&mut self, contact: &[f64]) {
         let Self { points: [_, y], turns: [turns_x, turns_y], highest, rows, values } = self;
         let along_y = highest[1] + 1;
         for k in 0..along_y {

@@ -10,17 +10,17 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    pub(super) fn of(&self, ends: &[End]) -> usize {
+    pub(super) fn count(&self, ends: &[End]) -> usize {
         ends.iter().filter_map(|end| self.ends.get(end)).sum()
     }
 
     pub(super) fn all(&self) -> usize {
-        self.of(&End::ALL)
+        self.count(&End::ALL)
     }
 
     /// Those that end solved, and those that end as well as rounding lets them.
     pub(super) fn good(&self) -> [usize; 2] {
-        [self.of(&[End::Converged, End::Detached]), self.of(&[End::Converged, End::Detached, End::Floor])]
+        [self.count(&[End::Converged, End::Detached]), self.count(&[End::Converged, End::Detached, End::Floor])]
     }
 }
 
@@ -92,7 +92,7 @@ impl Account {
             let mut iterations = tally.iterations.clone();
             iterations.sort_unstable();
             let (median, most) = (iterations[iterations.len() / 2], iterations[iterations.len() - 1]);
-            let ends = End::ALL.map(|end| tally.of(&[end]));
+            let ends = End::ALL.map(|end| tally.count(&[end]));
             println!("{constraint:?} {law:?} {precision:?}: {}, {ends:?}; {median}, {most}", tally.all());
         }
         let largest = self.compared.iter().copied().fold(0.0, f64::max);

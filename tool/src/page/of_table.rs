@@ -37,7 +37,7 @@ pub fn page(table: &Path) -> Outcome<String> {
     if rows.is_empty() || !has("control_value") && !has("closure") {
         return Err(Error::file(table, "is no table of a sweep or a cycle: it has no column control_value").into());
     }
-    let scene = fs::read_to_string(scene::beside(table)).ok();
+    let scene = fs::read_to_string(scene::path_for(table)).ok();
     let units = units_of_table(&header, scene.as_deref());
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let cycle = has("leg");

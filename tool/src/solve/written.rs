@@ -5,7 +5,7 @@ use asperity::contact::PressureDistribution;
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, gap_to_write};
 
-use super::beside::Named;
+use super::others::Named;
 use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, PICTURES, VTI};
 use crate::csv;
 use crate::options::Scalar;

@@ -276,7 +276,7 @@ impl Commands {
         words.sort();
         let before = [env!("CARGO_PKG_VERSION"), self.0[self.0.len() - 1].name];
         let words = before.into_iter().chain(words.iter().map(String::as_str));
-        Ok(words.fold(Hash::NEW, |hash, word| hash.of(word.as_bytes()).of(b"\n")))
+        Ok(words.fold(Hash::NEW, |hash, word| hash.extend(word.as_bytes()).extend(b"\n")))
     }
 }
 
@@ -286,7 +286,7 @@ fn contents(path: &Path, files: &mut HashMap<PathBuf, Hash>) -> asperity::Result
         return Ok(hash);
     }
     let bytes = fs::read(path).map_err(|e| Error::unreadable(path, e))?;
-    let hash = Hash::NEW.of(&bytes);
+    let hash = Hash::NEW.extend(&bytes);
     files.insert(path.to_owned(), hash);
     Ok(hash)
 }

@@ -41,9 +41,9 @@ fn sum_path(rows: &Path) -> PathBuf {
 
 /// The checksum of rows, with the checksum of their warnings.
 fn checksum(rows: &Path) -> asperity::Result<String> {
-    let of_rows = Hash::NEW.of(&fs::read(rows).map_err(|e| Error::unreadable(rows, e))?);
-    let warnings = fs::read(warnings::beside(rows)).unwrap_or_default();
-    Ok(format!("{of_rows} {}\n", Hash::NEW.of(&warnings)))
+    let of_rows = Hash::NEW.extend(&fs::read(rows).map_err(|e| Error::unreadable(rows, e))?);
+    let warnings = fs::read(warnings::path_for(rows)).unwrap_or_default();
+    Ok(format!("{of_rows} {}\n", Hash::NEW.extend(&warnings)))
 }
 
 /// How far the work is.

@@ -30,7 +30,7 @@ fn patched(bytes: &[u8], old: &[u8], new: &[u8]) -> Vec<u8> {
 fn resealed(state: &[u8], place: &[u8]) -> Vec<u8> {
     let lines: Vec<_> = state.splitn(3, |&byte| byte == b'\n').collect();
     let rest = [lines[1], b"\n", place].concat();
-    [Hash::NEW.of(&rest).to_string().as_bytes(), b"\n", &rest].concat()
+    [Hash::NEW.extend(&rest).to_string().as_bytes(), b"\n", &rest].concat()
 }
 
 #[test]

@@ -66,7 +66,7 @@ pub fn read_fourier(path: impl AsRef<Path>, grid: Grid, unit: f64) -> Result<Sur
         }
         series.surface(unit).map_err(|error| Refusal::from(format!("cannot be a surface: {error}")))
     };
-    read().map_err(|refusal| refusal.of(path))
+    read().map_err(|refusal| refusal.in_file(path))
 }
 
 #[cfg(test)]

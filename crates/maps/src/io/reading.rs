@@ -39,7 +39,7 @@ impl Reading {
     /// such channel, or is of a format that leaves no such choice.
     pub fn read(&self, path: impl AsRef<Path>) -> Result<Topography> {
         let path = path.as_ref();
-        read_any(path, self).map_err(|refusal| refusal.of(path))
+        read_any(path, self).map_err(|refusal| refusal.in_file(path))
     }
 
     /// Reads a height map from the bytes of a file of a name, where there are no files, as in a browser.
@@ -49,6 +49,6 @@ impl Reading {
     /// As for [`read`](Self::read), with the name in the place of the path.
     pub fn read_bytes(&self, name: &str, bytes: &[u8]) -> Result<Topography> {
         let path = Path::new(name);
-        read_from(Cursor::new(bytes), bytes.len() as u64, &ending(path), self).map_err(|refusal| refusal.of(path))
+        read_from(Cursor::new(bytes), bytes.len() as u64, &ending(path), self).map_err(|refusal| refusal.in_file(path))
     }
 }

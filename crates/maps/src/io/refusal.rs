@@ -31,7 +31,7 @@ impl<T: Into<String>> From<T> for Refusal {
 
 impl Refusal {
     /// The error, with the path of the file.
-    pub fn of(self, path: &Path) -> Error {
+    pub fn in_file(self, path: &Path) -> Error {
         match self {
             Self::Reason(reason) => Error::file(path, reason),
             Self::System(reason, error) => Error::caused(path, reason, error),

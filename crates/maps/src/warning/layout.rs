@@ -106,7 +106,7 @@ mod tests {
         ((7 * i + 5 * j * j) as f64).sin()
     }
 
-    fn found(heights: &Array2<f64>) -> Vec<String> {
+    fn find(heights: &Array2<f64>) -> Vec<String> {
         let both = axes(heights).into_iter().chain(byte_order(heights));
         both.map(|warning| warning.to_string()).collect()
     }
@@ -114,53 +114,53 @@ mod tests {
     #[test]
     fn coordinates_are_found_and_heights_are_not() {
         let heights = Array2::from_shape_fn((9, 12), |(i, j)| rough(i, j));
-        assert!(found(&heights).is_empty());
+        assert!(find(&heights).is_empty());
         let mut table = heights.clone();
         table.row_mut(0).iter_mut().enumerate().for_each(|(j, h)| *h = 0.25 * j as f64);
-        assert!(found(&table)[0].starts_with("axes: the first line runs like coordinates, up to 2.75"));
+        assert!(find(&table)[0].starts_with("axes: the first line runs like coordinates, up to 2.75"));
         table.column_mut(0).iter_mut().enumerate().for_each(|(i, h)| *h = 3.0 - i as f64);
         table[[0, 0]] = f64::NAN;
-        assert!(found(&table)[0].contains("first line and the first column"));
-        assert!(found(&table.t().to_owned())[0].contains("up to 2.75"));
+        assert!(find(&table)[0].contains("first line and the first column"));
+        assert!(find(&table.t().to_owned())[0].contains("up to 2.75"));
         let profile = Array2::from_shape_fn((12, 2), |(i, j)| if j == 0 { 0.1 * i as f64 } else { rough(i, j) });
-        assert!(found(&profile)[0].contains("a profile?"));
+        assert!(find(&profile)[0].contains("a profile?"));
         // of uneven steps, back and forth once, and its lines in the place of columns
         let traced = Array2::from_shape_fn((40, 2), |(i, j)| match (i as f64, j) {
             (t, 0) => t + 0.3 * (3.0 * t).sin() + if i > 20 { 12.0 * (0.2 * (t - 20.0)).sin() } else { 0.0 },
             (t, _) => (0.4 * t).sin() + 0.01 * t,
         });
-        assert!(found(&traced)[0].contains("first column runs like coordinates"), "{:?}", found(&traced));
-        assert!(found(&traced.t().to_owned())[0].contains("a profile?"));
+        assert!(find(&traced)[0].contains("first column runs like coordinates"), "{:?}", find(&traced));
+        assert!(find(&traced.t().to_owned())[0].contains("a profile?"));
         // points in any order of columns, half of them missing
         let points = |i: usize| [(i % 6) as f64 * 0.4, rough(i, i), (i / 6) as f64 * 0.5, 1.0];
         let table = Array2::from_shape_fn((24, 4), |(i, j)| points(2 * i)[j]);
-        assert!(found(&table)[0].starts_with("axes: columns 1 and 3 are the coordinates"), "{:?}", found(&table));
+        assert!(find(&table)[0].starts_with("axes: columns 1 and 3 are the coordinates"), "{:?}", find(&table));
         // two lines of a smooth or a rough surface
         for of in
             [|i: usize, _: usize| (0.2 * i as f64).sin(), |i, j| (0.2 * i as f64).sin() * (1.0 - 2.0 * j as f64), rough]
         {
-            assert!(found(&Array2::from_shape_fn((64, 2), |(i, j)| of(i, j))).is_empty());
+            assert!(find(&Array2::from_shape_fn((64, 2), |(i, j)| of(i, j))).is_empty());
         }
         // a plane, a wedge, a flat, a line of heights
         let made: [fn(usize, usize) -> f64; 3] = [|i, j| (2 * i + 3 * j) as f64, |i, _| i as f64, |_, _| 1.0];
         for of in made {
-            assert!(found(&Array2::from_shape_fn((9, 12), |(i, j)| of(i, j))).is_empty());
+            assert!(find(&Array2::from_shape_fn((9, 12), |(i, j)| of(i, j))).is_empty());
         }
-        assert!(found(&Array2::from_shape_fn((9, 1), |(i, _)| i as f64)).is_empty());
+        assert!(find(&Array2::from_shape_fn((9, 1), |(i, _)| i as f64)).is_empty());
     }
 
     #[test]
     fn bytes_in_the_wrong_order_are_found() {
         let heights = Array2::from_shape_fn((20, 30), |(i, j)| 1e-9 * rough(i, j));
         let swapped = heights.mapv(|h| f64::from_bits(h.to_bits().swap_bytes()));
-        assert!(found(&swapped)[0].starts_with("byte-order: half of the magnitudes"), "{:?}", found(&swapped));
+        assert!(find(&swapped)[0].starts_with("byte-order: half of the magnitudes"), "{:?}", find(&swapped));
         let single = heights.mapv(|h| f64::from(f32::from_bits((h as f32).to_bits().swap_bytes())));
-        assert!(found(&single)[0].starts_with("byte-order"));
+        assert!(find(&single)[0].starts_with("byte-order"));
         // whole numbers become the least that there are
         let whole =
             Array2::from_shape_fn((20, 30), |(i, j)| f64::from_bits(((1 + i * j) as f64).to_bits().swap_bytes()));
-        assert!(found(&whole)[0].starts_with("byte-order"));
+        assert!(find(&whole)[0].starts_with("byte-order"));
         // heights of many magnitudes
-        assert!(found(&Array2::from_shape_fn((20, 30), |(i, j)| (-((i + j) as f64) / 2.0).exp())).is_empty());
+        assert!(find(&Array2::from_shape_fn((20, 30), |(i, j)| (-((i + j) as f64) / 2.0).exp())).is_empty());
     }
 }

@@ -61,7 +61,7 @@ impl Bar {
         let columns = (PIXELS * BAR).round() as usize;
         let shade = |row: usize| {
             let along = (rows as f64 - row as f64 - 0.5) / rows as f64;
-            colours.of(self.range.0 + (self.range.1 - self.range.0) * along)
+            colours.colour(self.range.0 + (self.range.1 - self.range.0) * along)
         };
         let pixels = (0..rows).flat_map(|row| std::iter::repeat_n(shade(row), columns)).collect();
         picture.shapes.push(Shape::Image(Image { area: body, columns, pixels }));
@@ -69,7 +69,7 @@ impl Bar {
         let ends = [(self.arrows.0, body.bottom(), bottom, self.range.0), (self.arrows.1, body.top, top, self.range.1)];
         for (length, base, tip, end) in ends.into_iter().filter(|(length, ..)| *length > 0.0) {
             let corners = |out: f64| [(left - out, base), (left + 0.5 * BAR, tip), (left + BAR + out, base)];
-            picture.shapes.push(Shape::Triangle(corners(HAIRLINE), colours.of(end)));
+            picture.shapes.push(Shape::Triangle(corners(HAIRLINE), colours.colour(end)));
             let within = Area::new(left - 1.0, base.min(tip) - 1.0, BAR + 2.0, length + 2.0);
             let pieces = vec![corners(0.0).to_vec()];
             picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within }));

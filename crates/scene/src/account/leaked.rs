@@ -124,7 +124,7 @@ impl Along<Transmissivity> {
 impl Transmissivity {
     /// The bounds in words.
     pub(crate) fn in_words(&self, units: &Units) -> String {
-        between(self.lower, self.upper, units.of(TRANSMISSIVITY), units)
+        between(self.lower, self.upper, units.unit(TRANSMISSIVITY), units)
     }
 }
 
@@ -172,7 +172,7 @@ impl Leaked {
                 rows.push(("  error of the grid".to_owned(), format!("{} %", percent(error))));
             }
             if let Some(Enclosed { lower, upper }) = *self.flow_per_pressure.along(axis) {
-                let viscous = units.of(VISCOSITY).zip(units.length.as_ref());
+                let viscous = units.unit(VISCOSITY).zip(units.length.as_ref());
                 let volume = viscous.map(|(viscosity, length)| format!("{length}³/({viscosity})"));
                 rows.push(("  flow per pressure".to_owned(), between(lower, upper, volume, units)));
             }

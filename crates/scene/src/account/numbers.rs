@@ -97,7 +97,7 @@ impl Units {
     /// The names of the columns of a table, with their units where those are all known.
     pub fn columns(&self, names: &[&str], control: &str, on_line: bool) -> Vec<String> {
         let known = self.of_table() != "none";
-        let unit = |name: &str| if known { self.of(Measure::of(name, control, on_line).dimension()?) } else { None };
+        let unit = |name: &str| if known { self.unit(Measure::of(name, control, on_line).dimension()?) } else { None };
         let name = |name: &&str| match unit(name) {
             // letters and digits of ASCII, as spreadsheets may take a file without a mark for another encoding
             Some(unit) => format!("{name} [{}]", ascii(&unit)),

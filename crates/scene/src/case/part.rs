@@ -81,7 +81,7 @@ impl Part {
     /// A field on the part.
     pub fn of_field<A: Clone>(&self, field: Array2<A>) -> Result<Array2<A>> {
         match self.wanted() {
-            Some(original) => original.of(field.view()),
+            Some(original) => original.crop(field.view()),
             None => Ok(field),
         }
     }

@@ -83,7 +83,7 @@ impl Case {
             solved_shape: part.solved(),
             length_unit: units.length.clone(),
             pressure_unit: units.pressure.clone(),
-            given: self.quantities.given(),
+            given: self.quantities.texts(),
             ..scene.inputs(part.grid().shape(), part.grid().lengths(), threads)
         };
         let (surface, scene) = (Arc::new(surface), scene.clone());

@@ -96,7 +96,7 @@ impl Default for Adhesion {
 
 impl Adhesion {
     /// The adhesion and the wall of what was given.
-    pub(crate) fn given(keys: AdhesionKeys) -> Self {
+    pub(crate) fn from_keys(keys: AdhesionKeys) -> Self {
         let named = |path: Option<PathBuf>| path.map(|path| path.to_string_lossy().into_owned());
         let AdhesionKeys { law, work_of_adhesion, range, exponent, hamaker, cut_off, wall, wall_stiffness, .. } = keys;
         Self {

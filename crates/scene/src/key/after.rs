@@ -120,7 +120,7 @@ impl Given {
 
 impl Conductors {
     /// Their key, and their numbers.
-    fn given(self) -> (&'static str, (f64, f64)) {
+    fn parts(self) -> (&'static str, (f64, f64)) {
         match self {
             Self::Electrical(pair) => ("resistivities", pair),
             Self::Thermal(pair) => ("conductivities", pair),
@@ -150,7 +150,7 @@ impl Conductors {
 
     /// Refuses bodies that do not conduct, or both without resistance.
     fn check(self) -> std::result::Result<(), String> {
-        let (key, (first, second)) = self.given();
+        let (key, (first, second)) = self.parts();
         let (range, requirement) = match self {
             Self::Electrical(_) => (Range::NON_NEGATIVE, "zero or positive and finite, and not both zero"),
             Self::Thermal(_) => (Range::POSITIVE, "positive and finite"),
@@ -169,7 +169,7 @@ impl After {
     pub fn check(&self, elastic: &Elastic, adhesion: &Adhesion) -> std::result::Result<(), String> {
         let Some(conductors) = self.conductors else { return Ok(()) };
         conductors.check()?;
-        let (key, _) = conductors.given();
+        let (key, _) = conductors.parts();
         if !self.stiffness {
             return Err(format!("{{{key}}} needs {{stiffness=}}, which gives the conductance: give both"));
         }
@@ -206,7 +206,7 @@ impl After {
     /// The inputs on which these columns depend, besides the stiffness.
     pub(crate) fn identity(&self) -> Vec<(&'static str, String)> {
         let conductors = self.conductors.map(|conductors| {
-            let (key, (first, second)) = conductors.given();
+            let (key, (first, second)) = conductors.parts();
             (key, format!("{first} {second}"))
         });
         let leakage = self.leakage.map(|tolerance| ("leakage", format!("to {tolerance}")));

@@ -200,7 +200,7 @@ fn or_nan(number: Option<f64>) -> f64 {
 
 impl Elastic {
     /// The body of what was given; a layer is bonded by default.
-    pub(crate) fn given(keys: SurfaceKeys) -> Self {
+    pub(crate) fn from_keys(keys: SurfaceKeys) -> Self {
         let SurfaceKeys { boundary, modulus, poisson, layer, base, coating, plate, against_modulus, .. } = keys;
         let SurfaceKeys { coating_modulus, coating_poisson, .. } = keys;
         let (boundary, modulus) = (boundary.unwrap_or_default(), modulus.unwrap_or(1.0));

@@ -16,7 +16,7 @@ use crate::key::{Given, LENGTH, Notice, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
 pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 
-use described::{beside, changed, described, described_form, holes, quantity, removed, rms, sides};
+use described::{changed, described, described_form, holes, list_others, quantity, removed, rms, sides};
 
 /// The steps that make a surface of a measured map, in the order of the fields; no step by default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -181,7 +181,7 @@ impl Preparation {
         if self.clean {
             return self.clone().cleaned().run(map, log);
         }
-        log.tell("read", format!("{}{}", described(&map), beside(&map)));
+        log.tell("read", format!("{}{}", described(&map), list_others(&map)));
         map = self.interpret(map, log)?;
         let has_codes = !log.warnings.is_empty();
         if let Some(&[x, y, nx, ny]) = self.crop.as_deref() {

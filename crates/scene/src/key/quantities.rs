@@ -74,7 +74,7 @@ impl Quantities {
     }
 
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
-    pub fn given(&self) -> Option<Value> {
+    pub fn texts(&self) -> Option<Value> {
         let entry = |given: &Measured| {
             let texts = if let [one] = &given.texts[..] { json!(one) } else { json!(given.texts) };
             (given.key.clone(), texts)

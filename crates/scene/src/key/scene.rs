@@ -125,7 +125,7 @@ impl Given {
     pub fn scene(&self) -> Scene {
         let SolverKeys { method, tolerance, max_iterations, precision, branch, .. } = self.keys();
         let (method, precision) = (method.unwrap_or_default(), precision.unwrap_or_default());
-        let (elastic, adhesion) = (Elastic::given(self.keys()), Adhesion::given(self.keys()));
+        let (elastic, adhesion) = (Elastic::from_keys(self.keys()), Adhesion::from_keys(self.keys()));
         Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch }
     }
 

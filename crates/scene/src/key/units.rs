@@ -91,7 +91,7 @@ impl Units {
     }
 
     /// The unit of a dimension: its own of the SI, or a product of those that are known.
-    pub fn of(&self, dimension: Dimension) -> Option<String> {
+    pub fn unit(&self, dimension: Dimension) -> Option<String> {
         if let (true, Some(force)) = (dimension == FORCE, &self.force) {
             return Some(force.clone());
         }
@@ -123,7 +123,7 @@ impl Units {
 
     /// A number of a dimension for people, with its unit as far as that is known, and with a prefix in SI units.
     pub fn number(&self, value: f64, dimension: Dimension) -> String {
-        match self.of(dimension) {
+        match self.unit(dimension) {
             Some(unit) if unit == dimension.si => si(value, &unit),
             Some(unit) => format!("{} {unit}", plain(value)),
             None => plain(value),
@@ -132,7 +132,7 @@ impl Units {
 
     /// The same, with the prefix of another number.
     pub fn number_like(&self, value: f64, like: f64, dimension: Dimension) -> String {
-        let si = self.of(dimension).filter(|unit| unit == dimension.si);
+        let si = self.unit(dimension).filter(|unit| unit == dimension.si);
         match si.and_then(|unit| numbers::scale(like, &unit)) {
             Some((power, unit)) => format!("{} {unit}", numbers::rounded(value / 10f64.powi(power), 4, 1e6)),
             None => self.number(value, dimension),
@@ -146,7 +146,7 @@ impl Units {
 
     /// The units of a table, if they are all known, for comparing two runs.
     pub fn of_table(&self) -> String {
-        let units = [LENGTH, PRESSURE, FORCE].map(|dimension| self.of(dimension));
+        let units = [LENGTH, PRESSURE, FORCE].map(|dimension| self.unit(dimension));
         units.into_iter().collect::<Option<Vec<_>>>().map_or("none".to_owned(), |units| units.join(" "))
     }
 }

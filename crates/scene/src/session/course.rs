@@ -316,7 +316,7 @@ impl<T: Scalar> Course<T> {
             }
         };
         *states += 1;
-        let found = Found { search, step, ..session.found(solution, clock)? };
+        let found = Found { search, step, ..session.examine(solution, clock)? };
         session.followed(found, &self.after).map(Some)
     }
 

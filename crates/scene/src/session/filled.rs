@@ -20,7 +20,7 @@ use crate::session::way::Way;
 use crate::session::{Session, Solved};
 use crate::table::identity::{Fields, Identity, identity};
 use crate::table::output::with_suffix;
-use crate::table::warnings::beside;
+use crate::table::warnings::path_for;
 use crate::table::{Format, Opening, Table};
 
 /// The file of a table, with the fields of the law on which its rows depend.
@@ -129,7 +129,7 @@ impl<T: Scalar> Session<T> {
         let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
         let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
         let header = self.facts.units.columns(&names, control, self.grid.is_line());
-        let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
+        let beside = vec![with_suffix(&out, ".scene.toml"), path_for(&out)];
         Ok(Opening { out, format, names, header, identity, loads, fields, force, is_case, beside })
     }
 

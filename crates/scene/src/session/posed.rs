@@ -196,7 +196,7 @@ impl<T: Scalar> Session<T> {
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the surface.
-    pub(super) fn found(&self, solution: Solution<T>, clock: Instant) -> Result<Found<T>> {
+    pub(super) fn examine(&self, solution: Solution<T>, clock: Instant) -> Result<Found<T>> {
         Found::new(solution, self.law.clone(), self.facts.part.wanted(), clock)
     }
 
@@ -256,7 +256,7 @@ impl<T: Scalar> Session<T> {
             let elastic = |grid| self.facts.scene.elastic.operator(grid);
             let law = Arc::clone(&self.law);
             let found = wanted.pull_off_observed(&mut self.solver, &surface, elastic, law, &asked, observe)?;
-            let last = self.found(found.found.solution.clone(), clock)?;
+            let last = self.examine(found.found.solution.clone(), clock)?;
             let pulled_off = PulledOff::of(asked, &found.found, &last.part()?.report, Ok(&found), goal);
             if let Err(NoEstimate::FewNodes { nodes, needed, bytes }) = found.error {
                 let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
@@ -268,7 +268,7 @@ impl<T: Scalar> Session<T> {
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
         let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
         let found = asked.find_from(solver, problem, start, |state| observe(&grid, state, tolerance))?;
-        let last = self.found(found.solution.clone(), clock)?;
+        let last = self.examine(found.solution.clone(), clock)?;
         let untold = if of_grid { "a coarser grid has no start: leave out the start" } else { PulledOff::OF_A_RANGE };
         let pulled_off = PulledOff::of(asked, &found, &last.part()?.report, Err(untold), None);
         Ok((last, pulled_off))

@@ -36,7 +36,7 @@ impl<T: Scalar> Session<T> {
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let reached = Refinement::of(goal.accuracy, goal.of, reached, refinable, unaffordable);
-        let mut found = self.found(solution, clock)?;
+        let mut found = self.examine(solution, clock)?;
         let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
         found.sight.estimate(&levels, nodes_per_wave);
         Ok(Found { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
@@ -82,7 +82,7 @@ impl<T: Scalar> Session<T> {
             )?;
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
-        let mut found = self.found(solution, clock)?;
+        let mut found = self.examine(solution, clock)?;
         // the error of the grid is known for elastic contact alone
         found.sight.open = found.solution.report.plastic.is_none().then(|| (waves, levels.clone()));
         Ok(Some(found.by(levels, applications)))
@@ -128,7 +128,7 @@ impl<T: Scalar> Session<T> {
             solution = left.solution;
         }
         let stiffness = if asked.after.stiffness { self.stiffness(&solution)? } else { None };
-        let found = self.found(solution, clock)?;
+        let found = self.examine(solution, clock)?;
         let stability = verdict.as_ref().map(Steadiness::of);
         let (mode, departures) = (verdict.map(|verdict| verdict.mode), asked.leave.then_some(departures));
         Ok(Found { search, stability, mode, departures, stiffness, ..found })

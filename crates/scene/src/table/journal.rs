@@ -112,7 +112,7 @@ impl Journal {
         // by the same handle: on some platforms a lock keeps out others of the same process, too
         let read = (&self.file).rewind().and_then(|()| (&self.file).read_to_string(&mut text));
         read.map_err(|e| Error::unreadable(&self.path, e))?;
-        match Hash::NEW.of(text.as_bytes()) == self.written.content {
+        match Hash::NEW.extend(text.as_bytes()) == self.written.content {
             true => Ok(text),
             false => Err(Error::unreadable(&self.path, changed())),
         }
@@ -151,7 +151,7 @@ impl Journal {
             unconverged: self.written.unconverged + usize::from(!converged),
             loads: self.written.loads.of_numbers([&load]),
             bytes: self.written.bytes + text.len() as u64,
-            content: self.written.content.of(text.as_bytes()),
+            content: self.written.content.extend(text.as_bytes()),
         };
         if let Some(place) = place {
             State { identity: self.identity.clone(), written: self.written, place }.save(&self.path)?;
@@ -166,7 +166,7 @@ impl Journal {
 pub fn is_whole(path: &Path) -> bool {
     let (Ok(state), Ok(content)) = (State::read(path), fs::read(path)) else { return false };
     let kept = content.get(..state.written.bytes as usize);
-    kept.is_some_and(|kept| Hash::NEW.of(kept) == state.written.content)
+    kept.is_some_and(|kept| Hash::NEW.extend(kept) == state.written.content)
 }
 
 /// The state from which the run continues, with the part of the file that is kept.
@@ -211,7 +211,7 @@ fn resume(
         None => None,
     };
     let one_row = rest.is_some_and(|rest| rest.split_inclusive(|c| *c == b'\n').count() <= 1);
-    if Hash::NEW.of(kept) != written.content || !(one_row || is_case) {
+    if Hash::NEW.extend(kept) != written.content || !(one_row || is_case) {
         return refuse("was changed since it was written".to_owned());
     }
     Ok(state)

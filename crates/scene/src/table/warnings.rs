@@ -10,7 +10,7 @@ use crate::outcome::Outcome;
 use crate::table::output::{OutputFile, check_free, with_suffix, write_text};
 
 /// The file with the warnings of a table, next to it, a line for each; there is none without warnings.
-pub fn beside(table: &Path) -> PathBuf {
+pub fn path_for(table: &Path) -> PathBuf {
     with_suffix(table, ".warnings.txt")
 }
 
@@ -19,7 +19,7 @@ pub fn beside(table: &Path) -> PathBuf {
 /// # Errors
 /// [`Error::File`] with the remedy.
 pub fn check_beside(table: &Path, force: bool) -> Outcome<()> {
-    check_free(&beside(table), force, "--out")
+    check_free(&path_for(table), force, "--out")
 }
 
 /// The warnings next to a table.
@@ -27,7 +27,7 @@ pub fn check_beside(table: &Path, force: bool) -> Outcome<()> {
 /// # Errors
 /// [`Error::File`] if they cannot be read.
 pub fn read_beside(table: &Path) -> Outcome<Vec<Notice>> {
-    let path = beside(table);
+    let path = path_for(table);
     match fs::read_to_string(&path) {
         Ok(text) => Ok(text.lines().filter_map(Notice::parse).collect()),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
@@ -40,7 +40,7 @@ pub fn read_beside(table: &Path) -> Outcome<Vec<Notice>> {
 /// # Errors
 /// [`Error::File`] if they cannot be written.
 pub fn write_beside(table: &Path, warnings: &[Notice]) -> Outcome<()> {
-    let path = beside(table);
+    let path = path_for(table);
     if warnings.is_empty() {
         return match fs::remove_file(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -116,7 +116,7 @@ impl Warnings {
     }
 
     /// All warnings so far.
-    pub fn found(&self) -> &[Notice] {
+    pub fn all(&self) -> &[Notice] {
         &self.found
     }
 }

@@ -23,7 +23,7 @@ pub fn described_form(fit: &FormFit, map: &Topography) -> String {
 }
 
 /// What its file has besides a map.
-pub fn beside(map: &Topography) -> String {
+pub fn list_others(map: &Topography) -> String {
     let names = &map.unread[..map.unread.len().min(MOST_NAMES)];
     match map.unread.len() {
         0 => String::new(),

@@ -65,7 +65,7 @@ impl State {
         let line_end = |bytes: &[u8]| bytes.iter().position(|&byte| byte == b'\n');
         let (hash, rest) = bytes.split_at_checked(line_end(bytes)?)?;
         let rest = rest.strip_prefix(b"\n")?;
-        if hash != Hash::NEW.of(rest).to_string().as_bytes() {
+        if hash != Hash::NEW.extend(rest).to_string().as_bytes() {
             return None;
         }
         let (json, place) = rest.split_at_checked(line_end(rest)?)?;
@@ -79,7 +79,7 @@ impl State {
         let write = || -> Outcome<()> {
             let rest = [serde_json::to_vec(self)?, self.place.clone()].join(&b'\n');
             let mut file = File::create(&temporary)?;
-            writeln!(file, "{}", Hash::NEW.of(&rest))?;
+            writeln!(file, "{}", Hash::NEW.extend(&rest))?;
             file.write_all(&rest)?;
             file.sync_all()?;
             fs::rename(&temporary, &state)?;

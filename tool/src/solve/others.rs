@@ -8,23 +8,23 @@ use super::Options;
 use crate::options::Scalar;
 
 /// The files.
-pub const BESIDE: [&str; 4] = ["mode.npy", "displacement.npy", "against_displacement.npy", "plastic_depth.npy"];
+pub const OTHERS: [&str; 4] = ["mode.npy", "displacement.npy", "against_displacement.npy", "plastic_depth.npy"];
 
 /// A field on the whole of the map, by its file.
 pub type Named = (&'static str, Array2<f64>);
 
 impl Options {
     /// The files of the fields that are asked for, or come with a hardness.
-    pub fn beside(&self, case: &Case) -> impl Iterator<Item = &'static str> + use<> {
+    pub fn other_files(&self, case: &Case) -> impl Iterator<Item = &'static str> + use<> {
         let (displacement, scene) = (self.fields.is_some(), case.scene());
         let both = displacement && scene.elastic.against_modulus.is_some();
         let asked = [case.given().is_tested(), displacement, both, scene.adhesion.yields()];
-        BESIDE.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
+        OTHERS.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
     }
 }
 
 /// These fields of what was found, on its surface if displacements are asked for.
-pub fn fields_beside<T: Scalar>(found: &Found<T>, elastic: &Elastic, surface: Option<&Surface>) -> Result<Vec<Named>> {
+pub fn other_fields<T: Scalar>(found: &Found<T>, elastic: &Elastic, surface: Option<&Surface>) -> Result<Vec<Named>> {
     let mode = found.mode.as_ref().map(|mode| mode.mapv(T::widen));
     let solution = &found.solution;
     let depth = solution.plastic_depth.as_ref().map(|depth| depth.mapv(T::widen));
@@ -39,5 +39,5 @@ pub fn fields_beside<T: Scalar>(found: &Found<T>, elastic: &Elastic, surface: Op
             }
         },
     };
-    Ok(BESIDE.into_iter().zip([mode, own, other, depth]).filter_map(|(name, field)| Some((name, field?))).collect())
+    Ok(OTHERS.into_iter().zip([mode, own, other, depth]).filter_map(|(name, field)| Some((name, field?))).collect())
 }

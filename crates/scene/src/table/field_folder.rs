@@ -17,9 +17,9 @@ const FIELDS: [&str; 4] = ["gap", "pressure", "contact_pressure", "plastic_depth
 
 /// The folder of the fields, if they are kept.
 #[derive(Clone, Copy)]
-pub struct Kept<'a>(pub Option<&'a Path>);
+pub struct FieldFolder<'a>(pub Option<&'a Path>);
 
-impl Kept<'_> {
+impl FieldFolder<'_> {
     /// Refuses to replace fields, unless they may be, or belong to the rows of a table that is there.
     pub fn check(self, force: bool, table: &Path) -> Outcome<()> {
         let Some(folder) = self.0 else { return Ok(()) };
