@@ -114,7 +114,7 @@ def test_signatures_have_the_keywords_of_the_lists(name):
 
 def entries(function):
     """The parameters that a docstring describes."""
-    found = re.findall(r"^(\w[\w, ]*)(?: :|$)", inspect.getdoc(function), re.MULTILINE)
+    found = re.findall(r"^(\w[\w, ]*)(?: :|$)", inspect.getdoc(function) or "", re.MULTILINE)
     return [word.strip() for names in found for word in names.split(",")]
 
 
@@ -123,6 +123,13 @@ def test_each_keyword_is_described_with_its_function_or_with_solve(name):
     own, others = name.rpartition(".")[2].replace("__init__", "solve"), {"interface": ["sweep"]}
     described = {word for one in (own, "solve", *others.get(own, ())) for word in entries(getattr(asperity, one))}
     assert set(signatures()[name]) - described == set()
+
+
+@pytest.mark.parametrize("name", signatures())
+def test_keywords_are_described_in_the_order_of_the_signature(name):
+    function = inspect.unwrap(function_of(name))
+    described = [one for one in entries(function) if one in inspect.signature(function).parameters]
+    assert described == [one for one in inspect.signature(function).parameters if one in described]
 
 
 def test_parameters_of_laws_are_those_of_the_list():

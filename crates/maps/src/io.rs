@@ -4,7 +4,7 @@
 //! `.xyz` and texts, with side lengths and units where they are known; [`read_field`] takes the numbers alone, a
 //! [`Reading`] one of several [`channels()`], or what is in memory, and [`read_fourier`] Fourier coefficients.
 //! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy and
-//! for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
+//! for ParaView.
 
 mod blocks;
 mod channels;

@@ -2,8 +2,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`io`] | files of instruments, of Gwyddion and of numpy; fields and heights written; folders of results |
-//! | [`numbers`] | numbers as text for people |
+//! | [`io`] | files of instruments, of Gwyddion and of numpy; fields and heights written |
 //! | root | [`Topography`], a map on its way to a surface; [`fill()`], [`surface_with_absent`], [`knee_wavelength`] |
 //! | [`warning`] | probable mistakes in heights, in the law on them, and in an answer |
 

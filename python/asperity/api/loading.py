@@ -84,18 +84,18 @@ def pull_off(
     heights, lengths, axes
         Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as `solve` takes
         them.
-    law : Law or an object of your own
-        Adhesion law.
     preload : float, optional
         Mean pressure to which surfaces that come from afar were pressed before. Without it they were pressed flat,
         unless ``branch`` or ``start`` says otherwise.
-    rtol : float
-        Relative tolerance: width of the bracket over the pull-off.
+    law : Law or an object of your own
+        Adhesion law.
     accuracy : float, optional
         Relative error of the pull-off to reach, such as 0.05, with `JKR`. The heights are interpolated on finer grids
         until the estimated error is small enough.
     memory : float, optional
         Memory that an accuracy may take, in GiB; all that is free by default.
+    rtol : float
+        Relative tolerance: width of the bracket over the pull-off.
 
     Returns
     -------
@@ -168,15 +168,6 @@ def viscoelastic(
         them.
     modulus : float
         Instantaneous contact modulus E₀, a pressure, in a step at once. The relaxed one is E₀ (1 − Σ gₖ).
-    body : Layer, optional
-        Body that deforms, a half-space by default; work and energies are without the mean compression of a layer.
-    law : Law, an object of your own, or str, optional
-        Adhesion law, as `solve` takes it, with a range. A law with a traction that jumps, such as `MaugisDugdale`,
-        holds edges on the nodes.
-    prony : sequence of (float, float)
-        Shares gₖ of the instantaneous modulus that relax, and their relaxation times τₖ. Shares add up to 1 at most.
-    times : sequence of float
-        Times of the loads, in the unit of the relaxation times. The same time twice is a step at once.
     mean_pressures : sequence of float
         Mean external pressures at the times.
     mean_gaps : sequence of float
@@ -185,6 +176,15 @@ def viscoelastic(
         Normal forces at the times.
     approaches : sequence of float
         Approaches at the times, with a free boundary.
+    prony : sequence of (float, float)
+        Shares gₖ of the instantaneous modulus that relax, and their relaxation times τₖ. Shares add up to 1 at most.
+    times : sequence of float
+        Times of the loads, in the unit of the relaxation times. The same time twice is a step at once.
+    law : Law, an object of your own, or str, optional
+        Adhesion law, as `solve` takes it, with a range. A law with a traction that jumps, such as `MaugisDugdale`,
+        holds edges on the nodes.
+    body : Layer, optional
+        Body that deforms, a half-space by default; work and energies are without the mean compression of a layer.
 
     Returns
     -------

@@ -116,36 +116,29 @@ def solve(
     modulus : float
         Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that
         deforms.
-    boundary : {"periodic", "free"}
-        What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. A
-        free boundary needs a map that is not a line, and takes four times the memory.
-    absent_missing : bool
-        Treats missing points as absent nodes, where nothing faces the half-space, for example around a punch or in a
-        hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other nodes.
-    layer : float or str, optional
-        Thickness of an elastic layer on a rigid base, instead of a half-space; needs poisson.
-    base : {"bonded", "sliding"}, optional
-        Hold of the base on the layer: bonded, or sliding without friction [default: bonded].
-    coating : float or str, optional
-        Thickness of an elastic coating on the half-space; modulus is then the modulus of the substrate; needs
-        coating_modulus, coating_poisson and poisson.
-    coating_modulus : float or str, optional
-        Contact modulus E/(1 - nu^2) of the coating, a pressure.
-    coating_poisson : float, optional
-        Poisson's ratio of the coating.
-    plate : float or str, optional
-        Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; modulus is then the modulus of the
-        half-space.
-    poisson : float, optional
-        Poisson's ratio of the layer, or of the substrate under a coating.
-    against_modulus : float or str, optional
-        Contact modulus E/(1 - nu^2) of the second body, an elastic half-space [default: it is rigid].
-    shift : float or (float, float), optional
-        Lengths by which the surface on the other side is moved along x and y, with a periodic boundary. They need not
-        be whole nodes.
-    whole : bool
-        Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are on its
-        original.
+    mean_pressure : float or str, optional
+        Mean external pressure that is held, over the area of the map, compression positive.
+    mean_gap : float or str, optional
+        Mean gap that is held, a length; with a periodic boundary.
+    normal_force : float or str, optional
+        Normal force that is held, compression positive: the mean pressure times the area of the map.
+    approach : float or str, optional
+        Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved towards
+        each other from the position of first touch without deformation; negative before it.
+    spring : (float, float)
+        Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
+        boundary F = k (z − δ), with a periodic one and the mean gap ḡ, without absent nodes, F = k (ḡ − z).
+    spring_stiffness : float or str, optional
+        Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs spring_position.
+    spring_position : float or str, optional
+        Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z -
+        D); with a periodic one a mean gap, F = K (G - Z).
+    reduced_pressure : float, optional
+        Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms).
+    contact_fraction : float
+        Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
+        pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it
+        was ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
     law : Law, an object of your own, or str, optional
         Adhesion law, or its name with its parameters, such as ``law="exponential", work_of_adhesion=..., range=...``;
         none by default. `JKR` needs only the work of adhesion. `Exponential`, `MaugisDugdale`, `LennardJones`, `Morse`,
@@ -162,60 +155,81 @@ def solve(
         Hamaker's constant of van-der-waals, an energy.
     cut_off : float or str, optional
         Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion.
+    branch : {"loading", "unloading", "both"}, optional
+        Equilibrium to find where adhesion has several: with surfaces pressed together from afar, or with surfaces
+        pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
+        this default one, and ``report["other_branch"]`` has the other one, how far away it is, and whether it is the
+        same.
+    boundary : {"periodic", "free"}
+        What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. A
+        free boundary needs a map that is not a line, and takes four times the memory.
+    absent_missing : bool
+        Treats missing points as absent nodes, where nothing faces the half-space, for example around a punch or in a
+        hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other nodes.
+    against : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file, optional
+        Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
+        unit; flat without it. The other surface is turned over about the y axis, so that it faces this one: the
+        heights that are solved are ``heights + against[::-1]``.
+    against_modulus : float or str, optional
+        Contact modulus E/(1 - nu^2) of the second body, an elastic half-space [default: it is rigid].
+    shift : float or (float, float), optional
+        Lengths by which the surface on the other side is moved along x and y, with a periodic boundary. They need not
+        be whole nodes.
+    whole : bool
+        Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are on its
+        original.
+    body : Layer, Coating or Symbol, optional
+        Body that deforms, a half-space by default; with a periodic boundary. ``layer`` or ``coating`` with their
+        parameters say the same without an object.
+    layer : float or str, optional
+        Thickness of an elastic layer on a rigid base, instead of a half-space; needs poisson.
+    base : {"bonded", "sliding"}, optional
+        Hold of the base on the layer: bonded, or sliding without friction [default: bonded].
+    coating : float or str, optional
+        Thickness of an elastic coating on the half-space; modulus is then the modulus of the substrate; needs
+        coating_modulus, coating_poisson and poisson.
+    coating_modulus : float or str, optional
+        Contact modulus E/(1 - nu^2) of the coating, a pressure.
+    coating_poisson : float, optional
+        Poisson's ratio of the coating.
+    plate : float or str, optional
+        Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; modulus is then the modulus of the
+        half-space.
+    poisson : float, optional
+        Poisson's ratio of the layer, or of the substrate under a coating.
+    hardness : float or array_like, optional
+        Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
+        ``Solution.plastic_depth``. An array has it at each node, with the ``axes`` of the heights, in Pa where other
+        quantities have units. At a hard wall.
     wall : {"hard", "none", "penalty", "uzawa"}, Penalty or Uzawa
         What keeps the surfaces apart: a rigid wall at zero gap, a law that repels by itself, such as `LennardJones` and
         `Morse`, or springs of a stiffness, as an object or by name with ``wall_stiffness``.
     wall_stiffness : float or str, optional
         Stiffness of the springs of a penalty or uzawa wall, a pressure per length.
-    hardness : float or array_like, optional
-        Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
-        ``Solution.plastic_depth``. An array has it at each node, with the ``axes`` of the heights, in Pa where other
-        quantities have units. At a hard wall.
-    method : {"default", "rey2017"}, optional
-        Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017).
+    accuracy : float, optional
+        Relative error to reach, such as 0.01. Chooses the tolerance, solves on coarser grids too, and interpolates the
+        heights on finer ones until the estimated error is small enough: the fields, and ``heights`` and ``topography``
+        of the solution, are on the finest grid. Before the solve, the logger ``asperity`` says how much time and memory
+        this will probably take; ``plan`` of the solution has the same. A tolerance that is given with it may be smaller
+        than the one that it chooses.
+    accuracy_of : {"area", "gap", "approach", "pressure"}, optional
+        Quantity that has the accuracy: the contact area corrected for its edge, by default; or the mean gap, the approach
+        or the mean pressure, if it is not given.
+    memory : float, optional
+        Memory that accuracy may take, in GiB [default: all that is free].
+    nested : bool, optional
+        Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
+        the grid then. None leaves it to the library, which does so where it is faster.
     tolerance : float, optional
         Certified relative error at which to stop [default: 1e-6, in f32 and in cycles 1e-4].
+    method : {"default", "rey2017"}, optional
+        Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017).
     max_iterations : int, optional
         Iterations after which to give up [default: 2000, with rey2017 20000].
     precision : {"f64", "f32"}, optional
         Precision of the solve, and of the fields it writes.
     threads : int, optional
         Threads; the results do not depend on it [default: one per core].
-    branch : {"loading", "unloading", "both"}, optional
-        Equilibrium to find where adhesion has several: with surfaces pressed together from afar, or with surfaces
-        pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
-        this default one, and ``report["other_branch"]`` has the other one, how far away it is, and whether it is the
-        same.
-    body : Layer, Coating or Symbol, optional
-        Body that deforms, a half-space by default; with a periodic boundary. ``layer`` or ``coating`` with their
-        parameters say the same without an object.
-    against : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file, optional
-        Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
-        unit; flat without it. The other surface is turned over about the y axis, so that it faces this one: the
-        heights that are solved are ``heights + against[::-1]``.
-    mean_gap : float or str, optional
-        Mean gap that is held, a length; with a periodic boundary.
-    mean_pressure : float or str, optional
-        Mean external pressure that is held, over the area of the map, compression positive.
-    normal_force : float or str, optional
-        Normal force that is held, compression positive: the mean pressure times the area of the map.
-    approach : float or str, optional
-        Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved towards
-        each other from the position of first touch without deformation; negative before it.
-    spring_stiffness : float or str, optional
-        Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs spring_position.
-    spring_position : float or str, optional
-        Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z -
-        D); with a periodic one a mean gap, F = K (G - Z).
-    reduced_pressure : float, optional
-        Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms).
-    contact_fraction : float
-        Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
-        pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it
-        was ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
-    nested : bool, optional
-        Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
-        the grid then. None leaves it to the library, which does so where it is faster.
     stability : bool
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool
@@ -228,17 +242,6 @@ def solve(
         ``report["conductance"]`` with its relative error, which includes the error of the grid as far as it is known.
     conductivities : tuple[float or str, float or str], optional
         Thermal conductivities of both half-spaces: the same for heat.
-    accuracy : float, optional
-        Relative error to reach, such as 0.01. Chooses the tolerance, solves on coarser grids too, and interpolates the
-        heights on finer ones until the estimated error is small enough: the fields, and ``heights`` and ``topography``
-        of the solution, are on the finest grid. Before the solve, the logger ``asperity`` says how much time and memory
-        this will probably take; ``plan`` of the solution has the same. A tolerance that is given with it may be smaller
-        than the one that it chooses.
-    accuracy_of : {"area", "gap", "approach", "pressure"}, optional
-        Quantity that has the accuracy: the contact area corrected for its edge, by default; or the mean gap, the approach
-        or the mean pressure, if it is not given.
-    memory : float, optional
-        Memory that accuracy may take, in GiB [default: all that is free].
     start : array_like, Solution or "apart", optional
         Gap from which to start, of the shape (Nx, Ny) of the results. With adhesion it chooses the branch. ``"apart"``
         starts from undeformed bodies at the ``mean_gap``, the ``approach`` or the position at rest of the ``spring``.
@@ -247,9 +250,6 @@ def solve(
         Called with an `Iteration` in every iteration, for example ``asperity.progress()``. ``raise StopIteration`` in
         it ends the solve; any other exception arrives as it was raised, with what was reached as its attribute
         ``solution``.
-    spring : (float, float)
-        Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
-        boundary F = k (z − δ), with a periodic one and the mean gap ḡ, without absent nodes, F = k (ḡ − z).
 
     Returns
     -------

@@ -128,10 +128,10 @@ def sweep(
         soon as it is solved. The same call continues a file that is there, also with loads added to the end of the
         list, and ends with the same bytes as one that was not interrupted; for that it keeps ``.state`` next to the
         file. Rows that the file has are in ``columns`` and are not solved again: iterating gives the states after them.
-    fields : str or path, optional
-        Folder for gap, pressure and contact pressure of the rows, ``gap-0001.npy`` and so on; with ``out``.
     force : bool
         Starts over, and replaces the files that are there.
+    fields : str or path, optional
+        Folder for gap, pressure and contact pressure of the rows, ``gap-0001.npy`` and so on; with ``out``.
 
     Returns
     -------
@@ -219,10 +219,10 @@ def cycle(
     heights, lengths, axes
         Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as `solve` takes
         them.
-    mean_gaps : sequence of float
-        Mean gaps at which the cycle starts, turns and ends: two at least.
     mean_pressures : sequence of float
         The same in mean pressures.
+    mean_gaps : sequence of float
+        Mean gaps at which the cycle starts, turns and ends: two at least.
     normal_forces : sequence of float
         The same in normal forces.
     approaches : sequence of float
@@ -233,14 +233,6 @@ def cycle(
         One stiffness with many positions at rest, in the place of ``springs``.
     reduced_pressures : sequence of float
         The same in mean pressures over E* h'rms, with h'rms the rms slope of the surface.
-    steps : int
-        Least number of steps in a leg.
-    smallest_step : float, optional
-        Step to which a jump is located, as a share of the leg; if not given, until the work of the step is known to a
-        fifth of the energy that the jump dissipates.
-    imbalance : float
-        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed,
-        and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one.
     accuracy : float, optional
         Relative error of the limit of no range to reach, such as 0.1, with `JKR`. The cycle is followed on coarser grids
         first, and the heights are interpolated on finer ones until the error that is to be expected is small enough: the
@@ -249,18 +241,26 @@ def cycle(
         Quantity that has the accuracy: the work done by the load, by default, or the greatest tension.
     memory : float, optional
         Memory that an accuracy may take, in GiB; all that is free by default.
-    smooth : bool
-        Whether jumps of the law's traction are smoothed by what the grid resolves.
+    steps : int
+        Least number of steps in a leg.
+    smallest_step : float, optional
+        Step to which a jump is located, as a share of the leg; if not given, until the work of the step is known to a
+        fifth of the energy that the jump dissipates.
+    imbalance : float
+        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed,
+        and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one.
     out : str or path, optional
         File for the rows, ``.csv`` or ``.jsonl``, as the program writes it from the same inputs. A row is appended as
         soon as it is solved. The same call continues a file that is there, and ends with the same bytes as one that was
         not interrupted; for that it keeps ``.state`` next to the file. Rows that the file has are in ``columns`` and
         are not solved again: iterating gives the states after them.
+    force : bool
+        Starts over, and replaces the files that are there.
+    smooth : bool
+        Whether jumps of the law's traction are smoothed by what the grid resolves.
     fields : str or path, optional
         Folder for gap, pressure and contact pressure at the jumps and of the last row, ``gap-0001.npy`` and so on; with
         ``out``.
-    force : bool
-        Starts over, and replaces the files that are there.
 
     Returns
     -------
