@@ -69,7 +69,7 @@ impl<T: Real> AdhesionLaw<T> for Short {
         T::lit(self.at(gap.widen())[2])
     }
     fn hints(&self) -> Hints<T> {
-        let mut hints = Hints::new(T::lit(self.work_of_adhesion), T::lit(self.range)).named("short").concave();
+        let mut hints = Hints::new(T::lit(self.work_of_adhesion), T::lit(self.range)).with_name("short").concave();
         hints.of_grid = true;
         hints
     }

@@ -62,7 +62,7 @@ impl<T: Real> AdhesionLaw<T> for Exponential {
     }
     fn hints(&self) -> Hints<T> {
         let (w, range) = self.rounded();
-        Hints { zero: w == T::zero(), ..Hints::new(w, range).named("exponential").concave() }
+        Hints { zero: w == T::zero(), ..Hints::new(w, range).with_name("exponential").concave() }
     }
     fn evaluate(&self, _: usize, gaps: &[T], Values { energies, tractions, slopes }: Values<'_, T>) {
         let (w, range) = self.rounded::<T>();

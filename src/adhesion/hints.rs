@@ -73,7 +73,7 @@ impl<T: Real> Hints<T> {
 
     /// The same for a law of this name.
     #[must_use]
-    pub fn named(self, name: &'static str) -> Self {
+    pub fn with_name(self, name: &'static str) -> Self {
         Self { name, ..self }
     }
 

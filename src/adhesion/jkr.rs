@@ -106,7 +106,7 @@ impl<T: Real> AdhesionLaw<T> for Jkr {
             zero: w == T::zero(),
             of_grid: true,
             touching: self.touching,
-            ..Hints::new(w, range).named("jkr").concave()
+            ..Hints::new(w, range).with_name("jkr").concave()
         }
     }
     fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {

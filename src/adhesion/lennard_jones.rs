@@ -82,6 +82,6 @@ impl<T: Real> AdhesionLaw<T> for LennardJones {
     }
     fn hints(&self) -> Hints<T> {
         let (w, range) = (T::lit(self.work_of_adhesion), T::lit(self.range));
-        Hints { rest: (!self.cut).then_some(range), ..Hints::new(w, range).named("lennard-jones") }
+        Hints { rest: (!self.cut).then_some(range), ..Hints::new(w, range).with_name("lennard-jones") }
     }
 }

@@ -88,7 +88,7 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
     }
     fn hints(&self) -> Hints<T> {
         let (w, range, _) = self.rounded::<T>();
-        Hints { zero: w == T::zero(), ..Hints::new(w, range).named("maugis-dugdale").concave() }
+        Hints { zero: w == T::zero(), ..Hints::new(w, range).with_name("maugis-dugdale").concave() }
     }
     fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let Discretisation::Smooth(compliance) = to else { return None };

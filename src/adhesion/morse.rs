@@ -76,7 +76,7 @@ impl<T: Real> AdhesionLaw<T> for Morse {
     }
     fn hints(&self) -> Hints<T> {
         let (w, range) = self.rounded();
-        Hints::new(w, range).named("morse").with_rest(T::zero())
+        Hints::new(w, range).with_name("morse").with_rest(T::zero())
     }
     fn evaluate(&self, _: usize, gaps: &[T], mut values: Values<'_, T>) {
         let (w, range) = self.rounded::<T>();

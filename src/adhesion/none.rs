@@ -16,6 +16,6 @@ impl<T: Real> AdhesionLaw<T> for NoAdhesion {
         T::zero()
     }
     fn hints(&self) -> Hints<T> {
-        Hints { zero: true, ..Hints::of(self).named("none") }
+        Hints { zero: true, ..Hints::of(self).with_name("none") }
     }
 }

@@ -90,7 +90,7 @@ impl<T: Real> AdhesionLaw<T> for PowerLaw {
     }
     fn hints(&self) -> Hints<T> {
         let w = T::lit(self.work_of_adhesion);
-        Hints { zero: w == T::zero(), ..Hints::new(w, T::lit(self.range)).named("power").concave() }
+        Hints { zero: w == T::zero(), ..Hints::new(w, T::lit(self.range)).with_name("power").concave() }
     }
     fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
         values.set(

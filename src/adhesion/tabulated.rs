@@ -85,7 +85,11 @@ impl<T: Real> AdhesionLaw<T> for Tabulated {
     }
     fn hints(&self) -> Hints<T> {
         let Hints { work_of_adhesion, range, rest, concave, .. } = self.hints;
-        Hints { rest: rest.map(T::lit), concave, ..Hints::new(T::lit(work_of_adhesion), T::lit(range)).named("table") }
+        Hints {
+            rest: rest.map(T::lit),
+            concave,
+            ..Hints::new(T::lit(work_of_adhesion), T::lit(range)).with_name("table")
+        }
     }
     fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
         values.set(

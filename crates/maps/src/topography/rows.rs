@@ -57,7 +57,7 @@ impl FromStr for RowAlignment {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let text = text.trim();
         let refused = || {
-            let most = Trend::MOST;
+            let most = Trend::HIGHEST_ORDER;
             format!("it must be median, median-difference, or polynomial:ORDER with an order from 0 to {most}")
         };
         match (text, text.split_once(':').unwrap_or((text, "1"))) {
@@ -87,7 +87,7 @@ impl Topography {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Value`](asperity::Error::Value) if the order of a polynomial is above [`Trend::MOST`].
+    /// [`Error::Value`](asperity::Error::Value) if the order of a polynomial is above [`Trend::HIGHEST_ORDER`].
     pub fn align_rows(mut self, alignment: RowAlignment, along: ScanAxis) -> Result<Self> {
         let (before, across) = (self.mean(), Axis(if along == ScanAxis::X { 1 } else { 0 }));
         let mut last: Option<Array1<f64>> = None;

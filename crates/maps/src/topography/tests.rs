@@ -330,7 +330,7 @@ fn what_cannot_be_is_refused() {
 
 #[test]
 fn polynomials_of_any_order_are_removed_exactly() {
-    for order in 0..=Trend::MOST {
+    for order in 0..=Trend::HIGHEST_ORDER {
         // all terms of the order, on oblong cells with holes
         let whole = map((41, 33), (4.0, 1.0), |i, j| {
             let (x, y) = ((i - 20.0) / 20.0, (j - 16.0) / 16.0);

@@ -17,7 +17,7 @@ pub enum Trend {
     Plane,
     /// The quadric a + bx + cy + dx² + exy + fy², as for a sphere or a cylinder.
     Quadric,
-    /// The polynomial of all terms xⁱyᵏ with i + k up to an order, at most [`Trend::MOST`]: orders 0, 1 and 2 are the
+    /// The polynomial of all terms xⁱyᵏ with i + k up to an order, at most [`Trend::HIGHEST_ORDER`]: orders 0, 1 and 2 are the
     /// three above.
     Polynomial(usize),
 }
@@ -41,7 +41,7 @@ pub struct Fit {
 
 impl Trend {
     /// The highest order of a polynomial.
-    pub const MOST: usize = 12;
+    pub const HIGHEST_ORDER: usize = 12;
     /// The names of trends; a polynomial goes by its order.
     pub const NAMES: [&str; 3] = ["mean", "plane", "quadric"];
 
@@ -50,7 +50,7 @@ impl Trend {
             Self::Mean => Ok(0),
             Self::Plane => Ok(1),
             Self::Quadric => Ok(2),
-            Self::Polynomial(order) if order <= Self::MOST => Ok(order),
+            Self::Polynomial(order) if order <= Self::HIGHEST_ORDER => Ok(order),
             Self::Polynomial(order) => {
                 let requirement = "at most 12: beyond, roughness is treated as a trend";
                 Err(Error::Value { name: "order of the trend", value: order as f64, requirement })
@@ -69,14 +69,14 @@ impl FromStr for Trend {
             ("plane", _) => Ok(Self::Plane),
             ("quadric", _) => Ok(Self::Quadric),
             (_, Some(order)) => Ok(Self::Polynomial(order)),
-            _ => Err(format!("it must be {}, or an order from 0 to {}", Self::NAMES.join(", "), Self::MOST)),
+            _ => Err(format!("it must be {}, or an order from 0 to {}", Self::NAMES.join(", "), Self::HIGHEST_ORDER)),
         }
     }
 }
 
 /// The order of a polynomial.
 pub(super) fn order(text: &str) -> Option<usize> {
-    text.trim().parse().ok().filter(|order| *order <= Trend::MOST)
+    text.trim().parse().ok().filter(|order| *order <= Trend::HIGHEST_ORDER)
 }
 
 impl Topography {
@@ -85,7 +85,7 @@ impl Topography {
     /// Polynomials that these points do not tell apart, as x² on two rows, or y on a line, have no share in it.
     ///
     /// # Errors
-    /// [`Error::Value`] if all heights are missing, or the order is above [`Trend::MOST`].
+    /// [`Error::Value`] if all heights are missing, or the order is above [`Trend::HIGHEST_ORDER`].
     pub fn fit(&self, trend: Trend) -> Result<Fit> {
         let fitted = Fitted::new(self, trend)?;
         let ((nx, ny), (dx, dy)) = (self.heights.dim(), self.spacing());
@@ -125,7 +125,7 @@ impl Topography {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Value`] if all heights are missing, or the order is above [`Trend::MOST`].
+    /// [`Error::Value`] if all heights are missing, or the order is above [`Trend::HIGHEST_ORDER`].
     pub fn detrend(mut self, trend: Trend) -> Result<Self> {
         let fitted = Fitted::new(&self, trend)?;
         for (i, mut row) in self.heights.rows_mut().into_iter().enumerate() {
