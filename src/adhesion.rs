@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
+use crate::degrees::LITTLE;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::vector::vectors;
@@ -40,9 +41,6 @@ pub use tabulated::{Functions, Tabulated, check_functions};
 pub(crate) use touched::{Neighbourhood, Touched, Weakened};
 pub use values::Values;
 pub use varying::Varying;
-
-/// The share of w/ρ that the adhesive traction must exceed where surfaces are said to attract each other.
-const NOTICEABLE: f64 = 0.01;
 
 /// An adhesion law: the energy per area by which two surfaces attract each other, a function of the gap.
 ///
@@ -199,7 +197,7 @@ impl<T: Real> fmt::Debug for SharedLaw<T> {
 pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
     let hints = law.hints();
     let scale = (hints.work_of_adhesion / hints.range).widen();
-    if scale.is_finite() { NOTICEABLE * scale } else { 0.0 }
+    if scale.is_finite() { LITTLE * scale } else { 0.0 }
 }
 
 /// The law on the nodes of a grid, on a body of contact `modulus` E*, if the law differs there.

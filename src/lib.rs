@@ -84,6 +84,7 @@ pub mod accuracy;
 pub mod adhesion;
 pub mod constraint;
 pub mod contact;
+mod degrees;
 mod derivatives;
 pub mod elastic;
 pub mod error;

@@ -3,12 +3,14 @@
 use std::ops::ControlFlow;
 
 use crate::constraint::{ContactConstraint, Wall};
+use crate::degrees::{LITTLE, PARTLY, ROUGHLY};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::{Real, once};
+use crate::search::MOST_SOLVES;
 use crate::setters::setters;
 use crate::solver::{
-    Begin, Branch, Criterion, Iteration, Observer, ROUGHLY, Report, STRONGEST, Solution, Solved, Solver, Start, Status,
+    Begin, Branch, Criterion, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status,
     check_wall, refuse_hardness, unload,
 };
 
@@ -24,17 +26,8 @@ once! {
     ) -> Result<FoundPullOff<T>> = [within] PullOff::search;
 }
 
-/// The most solves of a search; a bracket is halved at least with every other one.
-const MOST: usize = 60;
-
 /// The first tension, over the attraction of the surfaces under no load.
 const FIRST: f64 = 1.0 / 16.0;
-
-/// The attraction of surfaces at rest, over their energy of adhesion and its range: a tension that is tried.
-const AT_REST: f64 = 0.1;
-
-/// The tolerance of a rough solve over the change of the tension; at most [`ROUGHLY`].
-const OF_CHANGE: f64 = 0.01;
 
 /// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
 ///
@@ -224,7 +217,7 @@ impl<T: Real> Search<'_, T> {
     /// The tolerance of a solve, by the relative change of the load.
     fn roughly(&self, change: f64) -> f64 {
         let own = self.solver.settings.tolerance_in::<T>();
-        if self.is_rough { own.max(ROUGHLY.min(OF_CHANGE * change)) } else { own }
+        if self.is_rough { own.max(ROUGHLY.min(LITTLE * change)) } else { own }
     }
 
     fn solve_to(&mut self, tolerance: f64, load: Control, begin: Begin<'_, T>) -> Result<Solved<T>> {
@@ -273,7 +266,7 @@ impl<T: Real> Search<'_, T> {
         let hints = self.problem.law_on_grid().hints();
         let stored = 0.0 - report.adhesive_energy;
         let node = hints.work_of_adhesion.widen() / self.problem.grid().nodes() as f64;
-        let at_rest = AT_REST * stored / hints.range.widen();
+        let at_rest = PARTLY * stored / hints.range.widen();
         let at_rest = if stored < STRONGEST * node || !at_rest.is_finite() { 0.0 } else { at_rest };
         let attraction = report.mean_contact_pressure.max(at_rest);
         if attraction > 0.0 {
@@ -285,7 +278,7 @@ impl<T: Real> Search<'_, T> {
 
     /// Narrows the bracket from a state that holds, with the first tension to try if none is expected.
     fn narrow(mut self, mut held: Solved<T>, first: f64) -> Result<FoundPullOff<T>> {
-        while self.solves < MOST && !self.bracket.is_narrow(self.tolerance) {
+        while self.solves < MOST_SOLVES && !self.bracket.is_narrow(self.tolerance) {
             let tension = self.bracket.next(first, self.tolerance);
             let tolerance = self.roughly(1.0 - self.bracket.greatest() / tension);
             let solved = self.solve_to(tolerance, Control::MeanPressure(-tension), Begin::Found(held.place()))?;
@@ -307,7 +300,7 @@ impl<T: Real> Search<'_, T> {
         let own = self.solver.settings.tolerance_in::<T>();
         let load = Control::MeanPressure(-self.bracket.greatest());
         let solved = self.solve_to(own, load, Begin::Found(held.place()))?;
-        if solved.solution.report.status == Status::Detached && self.solves < MOST {
+        if solved.solution.report.status == Status::Detached && self.solves < MOST_SOLVES {
             // rough states hold where exact ones do not
             self.is_rough = false;
             self.bracket.give_back();

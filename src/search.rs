@@ -5,12 +5,11 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::constraint::ContactConstraint;
+use crate::degrees::ROUGHLY;
 use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::{Real, once};
-use crate::solver::{
-    Begin, Branch, Iteration, Method, Observer, Place, ROUGHLY, Solution, Solved, Solver, Start, Status,
-};
+use crate::solver::{Begin, Branch, Iteration, Method, Observer, Place, Solution, Solved, Solver, Start, Status};
 
 mod axis;
 mod bracket;
@@ -33,7 +32,7 @@ const FAR: f64 = 2.0;
 const LONG: f64 = 0.7;
 
 /// The most solves of a search; a bracket is halved at least with every other one.
-const MOST: usize = 60;
+pub(crate) const MOST_SOLVES: usize = 60;
 
 /// The load under which a given share of the nodes is in contact, found by solves.
 ///
@@ -193,7 +192,7 @@ impl<T: Real> ContactSearch<T> {
             self.remember(trial.point);
             let off = |trial: &Trial<T>| bracket.target.off(trial.point.nodes);
             let near = nearest.take().filter(|kept| off(kept) < off(&trial)).unwrap_or(trial);
-            match bracket.trial(&self.points).filter(|_| solves < MOST) {
+            match bracket.trial(&self.points).filter(|_| solves < MOST_SOLVES) {
                 Some(next) => (x, nearest) = (next, Some(near)),
                 None => break (false, near),
             }

@@ -42,7 +42,6 @@ use driver::Job;
 pub(crate) use driver::Observer;
 pub(crate) use minimisation::Nearness;
 pub(crate) use place::Place;
-pub(crate) use plan::ROUGHLY;
 pub(crate) use potential::{Least, Of, Potential, bounded};
 use precision::{in_double, in_single};
 pub(crate) use report::Solved;
@@ -51,7 +50,6 @@ pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
 pub(crate) use tension::STRONGEST;
 pub(crate) use unload::unload;
-pub(crate) use work::ROUNDINGS;
 
 once! {
     /// A solve.

@@ -28,7 +28,6 @@ mod tangent;
 mod watch;
 
 pub use departure::Departure;
-pub(crate) use departure::PERTURBATION;
 pub use edge::EdgeError;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;

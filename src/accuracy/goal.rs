@@ -4,6 +4,7 @@ use super::refine::twice;
 use super::{GridError, Quantity, adhesion, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Wall};
+use crate::degrees::ROUGHLY;
 use crate::elastic::{ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -24,12 +25,11 @@ once! {
     ) -> Result<AccurateSolution<T>> = Accuracy::refine;
 }
 
-/// The tolerance of the solver as a share of the accuracy, and the largest.
+/// The tolerance of the solver as a share of the accuracy.
 const SHARE: f64 = 0.05;
-const LOOSEST: f64 = 1e-3;
 
 /// The least nodes along a side of a coarser grid.
-const COARSEST: usize = 16;
+pub(super) const COARSEST: usize = 16;
 
 /// The memory that a solve may take by default, in bytes: 4 GiB.
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
@@ -159,7 +159,7 @@ impl Accuracy {
             let (name, value, requirement) = ("accuracy", self.target, "between 0 and 1, such as 0.01 for 1 %");
             return Err(Error::Value { name, value, requirement });
         }
-        let needed = (SHARE * self.target).min(LOOSEST);
+        let needed = (SHARE * self.target).min(ROUGHLY);
         match settings.tolerance {
             Some(value) if value > needed => {
                 let requirement = "at most a twentieth of the accuracy, and at most 1e-3; without one it is chosen";

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::goal::{DOUBT, NUMBERS, is_refinable, on_coarse, on_twice};
+use super::goal::{COARSEST, DOUBT, NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, LoopLimit, Quantity};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
@@ -156,7 +156,7 @@ impl Accuracy {
             let reason = "the error of the grid is known of the law jkr alone: take that, or leave out the accuracy";
             return Err(Error::Unsuited { what, reason });
         }
-        let mut coarser = coarsened(surface, LoopLimit::COARSEST, hints.shape.is_none())?;
+        let mut coarser = coarsened(surface, COARSEST, hints.shape.is_none())?;
         coarser.truncate(2);
         if coarser.is_empty() {
             let reason = "a grid of half as many nodes along the sides tells it, and there is none of 16 nodes or more, with \

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Quantity;
-use super::goal::on_coarse;
+use super::goal::{COARSEST, on_coarse};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::error::Result;
 use crate::nested::coarsened;
@@ -20,8 +20,7 @@ const BEYOND: [f64; 2] = [1.35, 1.0];
 const BEYOND_PLACES: f64 = 0.5;
 
 /// The share of a limit that these places take in its error, on a grid of at most this number of nodes along the sides.
-const SCATTER: f64 = 0.24;
-const SCATTERED: f64 = 128.0;
+const SCATTER: (f64, f64) = (0.24, 128.0);
 
 /// The standard errors of the work, in the error of its limit.
 const STANDARD: f64 = 2.0;
@@ -95,16 +94,13 @@ pub struct LoopLimit {
 type OnGrid<T> = (Surface, Arc<dyn AdhesionLaw<T>>);
 
 impl LoopLimit {
-    /// The least number of nodes along a side of the coarser grid.
-    pub(super) const COARSEST: usize = 16;
-
     /// The limits from the ends of one path on a grid of this shape, and on one of half as many nodes along the sides.
     pub fn of(shape: (usize, usize), fine: &PathEnd, coarse: &PathEnd) -> Self {
         let sides = [shape.0, shape.1].into_iter().filter(|&nodes| nodes > 1);
-        let finer = SCATTERED / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
+        let finer = SCATTER.1 / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
         let is_scattered = fine.touches.max(coarse.touches) > 1;
-        let [work, tension] =
-            BEYOND.map(|one| if is_scattered { (BEYOND_PLACES, SCATTER * finer.sqrt().min(1.0)) } else { (one, 0.0) });
+        let [work, tension] = BEYOND
+            .map(|one| if is_scattered { (BEYOND_PLACES, SCATTER.0 * finer.sqrt().min(1.0)) } else { (one, 0.0) });
         let tensions = [fine.greatest_tension, coarse.greatest_tension];
         Self {
             work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error], work),
@@ -123,7 +119,7 @@ impl LoopLimit {
     /// # Errors
     /// [`Error::Value`](crate::Error::Value) for a grid that processes cannot share.
     pub fn coarser<T: Real>(surface: &Surface, law: Arc<dyn AdhesionLaw<T>>) -> Result<Option<OnGrid<T>>> {
-        let coarse = coarsened(surface, Self::COARSEST, law.hints().shape.is_none())?.into_iter().next();
+        let coarse = coarsened(surface, COARSEST, law.hints().shape.is_none())?.into_iter().next();
         Ok(coarse.map(|coarse| {
             let law = on_coarse(&SharedLaw(law), surface, &coarse).0;
             (coarse, law)

@@ -44,8 +44,7 @@ const NEARLY_CLOSED: f64 = 0.4;
 
 /// The adhesion of a rough surface above which two grids tell no error: of 13 scenes with more adhesion the pull-off was
 /// within it in 6. Surfaces of fewer waves along a side peel alike on all grids.
-const STRONG: f64 = 0.03;
-const MANY_WAVES: f64 = 3.5;
+const STRONG: (f64, f64) = (0.03, 3.5);
 
 /// The growth of the pull-off from one grid to the next, above which the two tell no error.
 const GROWTH: f64 = 1.15;
@@ -347,7 +346,7 @@ fn of_many_waves<T: Real>(surface: &Surface, found: &FoundPullOff<T>, nodes_per_
     } else {
         lx.min(ly)
     };
-    let few = side < MANY_WAVES * nodes_per_wave * surface.grid().largest_spacing();
+    let few = side < STRONG.1 * nodes_per_wave * surface.grid().largest_spacing();
     if few || report.approach.is_some() {
         return 0.0;
     }
@@ -370,7 +369,7 @@ fn error<T: Real>(
     if let Some(share) = found.closed_share().filter(|share| *share > NEARLY_CLOSED) {
         return Err(NoEstimate::Closed(share));
     }
-    if adhesion > STRONG {
+    if adhesion > STRONG.0 {
         return Err(NoEstimate::Strong(adhesion));
     }
     if found.solution.report.reaches_edge {

@@ -1,6 +1,7 @@
 //! A check of an adhesion law, for users' tests.
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
+use crate::degrees::{LITTLE, PARTLY, ROUNDINGS};
 use crate::derivatives::{self, GAPS, Named};
 use crate::error::{Breach, Error, Place, Result};
 use crate::real::Real;
@@ -8,24 +9,12 @@ use crate::real::Real;
 /// The functions, in the order in which each is the derivative of the one before.
 pub(super) const NAMES: [&str; 3] = ["adhesive energy", "adhesive traction", "slope of the adhesive traction"];
 
-/// The share of a function's largest value by which a value may be wrong, or a traction falls that jumps.
-const SHARE: f64 = 1e-2;
-
-/// The roundings, in units of the traction in contact, by which a traction that falls may seem to rise.
-const ROUNDINGS: f64 = 4.0;
-
 const NODES: usize = 1024;
 
 /// The number of nodes of a varying law at which functions are compared at many gaps.
 const PLACES: usize = 16;
 
-/// The width over which a smoothed traction is let fall, in ranges.
-const SMOOTHING: f64 = 0.1;
-
 const STRIDE: usize = 2;
-
-/// The compliance of the nodes of a law without a range, in units of the largest gap squared over its work of adhesion.
-const COMPLIANCE: f64 = 1e-2;
 
 const ASKED: [[bool; 3]; 6] = [
     [true, false, false],
@@ -66,7 +55,8 @@ const ASKED: [[bool; 3]; 6] = [
 /// ```
 pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
     Error::positive("largest gap", largest_gap)?;
-    let compliance = COMPLIANCE * largest_gap.powi(2) / law.hints().work_of_adhesion.widen();
+    // of the nodes, for a law without a range
+    let compliance = LITTLE * largest_gap.powi(2) / law.hints().work_of_adhesion.widen();
     let on_nodes = law.on_nodes(T::lit(compliance));
     let law: &dyn AdhesionLaw<T> = on_nodes.as_deref().unwrap_or(law);
     let hints = law.hints();
@@ -115,7 +105,7 @@ impl<T: Real> Checked<'_, T> {
 
     /// The error of the first gap at which the traction jumps.
     fn jump(&self) -> Option<Error> {
-        let (least, traction) = (SHARE * self.largest(), |gap: T| self.law.traction(gap).widen());
+        let (least, traction) = (LITTLE * self.largest(), |gap: T| self.law.traction(gap).widen());
         (0..GAPS).find_map(|i| {
             let (mut near, mut far) = (self.gap(i), self.gap(i + 1));
             loop {
@@ -141,13 +131,14 @@ impl<T: Real> Checked<'_, T> {
     /// Checks the smoothed law of a law with jumps of the traction.
     fn smoothness(&self) -> Result<()> {
         let Some(jump) = self.jump() else { return Ok(()) };
-        let compliance = T::lit(SMOOTHING * self.length / self.largest());
+        // a traction that jumps is let fall over a part of the range
+        let compliance = T::lit(PARTLY * self.length / self.largest());
         let Some(smoothed) = self.law.adapted(Discretisation::Smooth(compliance)) else { return Err(jump) };
         let smooth = Checked { law: &*smoothed, hints: smoothed.hints(), ..*self };
         self.check_shape("smoothed adhesion law", smooth.hints, self.hints.shape)?;
         smooth.functions()?;
         let [work, left] = [self.hints, smooth.hints].map(|hints| hints.work_of_adhesion.widen());
-        let keeps = (left - work).abs() <= SHARE * work.abs();
+        let keeps = (left - work).abs() <= LITTLE * work.abs();
         if !keeps {
             let requirement = "the work of adhesion of the law itself";
             return Err(Error::Value { name: "work of adhesion of the smoothed law", value: left, requirement });
@@ -205,7 +196,7 @@ impl<T: Real> Checked<'_, T> {
                     let [value, part, one] = [value, part, expected[node][order]].map(T::widen);
                     // of the rows of another process nothing is known
                     let unknown = shape.is_some() && one.is_nan();
-                    let [near, same] = [(value - one).abs() <= SHARE * size, value == part];
+                    let [near, same] = [(value - one).abs() <= LITTLE * size, value == part];
                     if !(unknown || near && same) {
                         let (place, expected) = (Place::Node(node, gaps[node].widen()), if near { part } else { one });
                         return Err(broken(order, value, place, Breach::Alike(expected)));
@@ -228,7 +219,7 @@ impl<T: Real> Checked<'_, T> {
         let functions: [Named<'_>; 3] = [(NAMES[0], &of(0)), (NAMES[1], &of(1)), (NAMES[2], &of(2))];
         derivatives::check::<T>(functions, self.gaps, self.length)?;
         let (value, expected) = (energy.widen(), self.law.energy(rest).widen());
-        if value < expected - SHARE * expected.abs() {
+        if value < expected - LITTLE * expected.abs() {
             return Err(broken(0, value, Place::Node(node, rest.widen()), Breach::Alike(expected)));
         }
         Ok(())

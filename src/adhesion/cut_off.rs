@@ -2,11 +2,9 @@ use std::slice::from_mut;
 use std::sync::Arc;
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
+use crate::degrees::LITTLE;
 use crate::error::{Error, Result};
 use crate::real::Real;
-
-/// The share of the work of adhesion by which the energy in contact may differ from it.
-const SLACK: f64 = 1e-2;
 
 /// A law that ends at the gap g_c: zero from there on, with energy, traction and slope continuous.
 ///
@@ -68,7 +66,7 @@ impl<L> CutOff<L> {
             return Err(Error::Value { name: "cut-off distance", value: distance, requirement });
         }
         let (energy, work) = (law.energy(start), hints.work_of_adhesion);
-        let falls = (energy + work).abs() <= SLACK * work.abs();
+        let falls = (energy + work).abs() <= LITTLE * work.abs();
         if !falls {
             return Err(Error::Value {
                 name: "adhesive energy in contact, or at rest, of the law to be cut off",

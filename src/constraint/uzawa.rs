@@ -5,6 +5,7 @@ use ndarray::ArrayView2;
 use super::penalty::check_stiffness;
 use super::{ContactConstraint, Springs, Update, Wall};
 use crate::adhesion::Values;
+use crate::degrees::{FAR, LITTLE, PARTLY};
 use crate::error::Result;
 use crate::field::{CHUNK, Field, Reducer, ordered, read, write};
 use crate::grid::Grid;
@@ -14,17 +15,6 @@ use crate::slab::Slab;
 
 /// The factor by which the springs stiffen after a round that leaves more than its reciprocal of the interpenetration.
 const STIFFEN: f64 = 4.0;
-const SLOW: f64 = 0.25;
-
-/// The largest stiffness of the first springs over the stiffness of the shortest wave: stiffer springs only cost
-/// iterations.
-const STIFFEST: f64 = 10.0;
-
-/// The relative error to which the first round with springs is solved from a given start.
-const FIRST: f64 = 1e-2;
-
-/// The share of the error of a round to which the next round is solved: rounds leave a larger share.
-const NEXT: f64 = 0.1;
 
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure
 /// from them, λ ← ⟨λ − kg⟩₊, after each round.
@@ -125,11 +115,13 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         Wall::Springs(self)
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
-        (self.solved_to, self.present) = (tolerance, FIRST);
+        // the error to which the first round with springs is solved
+        (self.solved_to, self.present) = (tolerance, LITTLE);
         (self.multipliers, self.rounds) = (Field::zeros(grid.shape()), 1);
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
-            self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
+            // stiffer springs only cost iterations
+            self.stiffness = self.stiffness.min(T::lit(FAR * stiffest));
         }
         Ok(())
     }
@@ -140,9 +132,9 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         true
     }
     fn bear(&mut self, pressures: ArrayView2<'_, T>, error: f64) -> bool {
-        (self.multipliers, self.present) = (Field::of(pressures), NEXT * error);
+        (self.multipliers, self.present) = (Field::of(pressures), PARTLY * error);
         if self.stiffest > 0.0 {
-            self.stiffness = T::lit(STIFFEST * self.stiffest);
+            self.stiffness = T::lit(FAR * self.stiffest);
         }
         self.rounds += 1;
         true
@@ -181,11 +173,12 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         reducer.run(write(&mut self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
             multipliers.iter_mut().zip(gaps).for_each(|(multiplier, &gap)| *multiplier = next(*multiplier, gap));
         });
-        if off > SLOW * self.off {
+        if off > self.off / STIFFEN {
             self.stiffness = stiffness * T::lit(STIFFEN);
         }
         self.off = off;
-        self.present = (NEXT * (left / work).sqrt()).min(FIRST);
+        // rounds leave a larger share of the error
+        self.present = (PARTLY * (left / work).sqrt()).min(LITTLE);
         self.rounds += 1;
         Update::Again
     }

@@ -3,6 +3,7 @@
 use ndarray::ArrayView2;
 
 use super::contact_map;
+use crate::degrees::LITTLE;
 use crate::error::{Error, Result};
 use crate::field::all_finite;
 use crate::real::Real;
@@ -118,11 +119,6 @@ impl PressureDistribution {
     }
 }
 
-/// The share of the values at either end that may stem from spikes and scars, and their distance from the others, in
-/// the range of the others.
-const OUTLIERS: f64 = 0.01;
-const SLACK: f64 = 1.0;
-
 /// The most values that enter the quantiles: a million tell enough of the distribution.
 const MOST: usize = 1_000_000;
 
@@ -145,10 +141,11 @@ pub fn bulk_range(values: impl Iterator<Item = f64> + Clone) -> Option<(f64, f64
     let step = (values.clone().count() / MOST) | 1;
     let mut some: Vec<_> = values.clone().step_by(step).collect();
     let last = some.len().checked_sub(1)?;
-    let out = (OUTLIERS * some.len() as f64) as usize;
+    // spikes and scars at either end
+    let out = (LITTLE * some.len() as f64) as usize;
     let mut quantile = |place| *some.select_nth_unstable_by(place, f64::total_cmp).1;
     let (low, high) = (quantile(out), quantile(last - out));
-    let most = if out > 0 && high > low { SLACK * (high - low) } else { f64::INFINITY };
+    let most = if out > 0 && high > low { high - low } else { f64::INFINITY };
     let near = values.filter(|value| low - value <= most && value - high <= most);
     Some(near.fold((low, high), |(low, high), value| (low.min(value), high.max(value))))
 }

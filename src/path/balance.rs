@@ -3,24 +3,15 @@
 use super::course::{Course, PLACES};
 use super::figures::{Figures, Mode};
 use super::quadrature::{integral, trapezoid};
+use crate::degrees::{LITTLE, PARTLY};
 use crate::solver::Report;
 
 /// The share of the energy of a jump to which the work of the load in its step is known.
 const LOCATED: f64 = 0.2;
 
-/// The same as a share of what all jumps have dissipated, of a law that attracts next to contacts alone: there the energy
-/// that a loop dissipates is known to the grid, and not to where in its step a jump is.
-const LOCATED_OF_ALL: f64 = 0.01;
-
 /// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
 /// compared with all before are not located one by one.
 const MANY: f64 = 20.0;
-
-/// The share of the largest tension by which the tension before a jump may exceed the tension of the last state.
-const PEAK: f64 = 0.01;
-
-/// The same in a step without a jump: corners of the load, where nodes come into contact, are smaller.
-const BROKEN_OFF: f64 = 0.1;
 
 /// The share of the expected growth of the tension in a step, below which it may have had a maximum there.
 const GROWN: f64 = 0.25;
@@ -56,7 +47,8 @@ impl Balance {
     /// Whether a jump is located by a step, from the product of the step and the change of the load: its work lies
     /// within half of that, as the jump may be anywhere in the step.
     pub(super) fn locates(&self, product: f64) -> bool {
-        let known = (LOCATED * self.drop).min(LOCATED_OF_ALL * (self.before + self.drop));
+        // a loop of a law without a range is known to the grid, and not to where in its step a jump is
+        let known = (LOCATED * self.drop).min(LITTLE * (self.before + self.drop));
         0.5 * product.abs() <= self.allowed.max(known)
     }
 }
@@ -95,10 +87,11 @@ impl Course {
         let (peak, breaks_off) = self.peak(step, next.pressure, noise.max(left));
         let balance = Balance {
             // a jump of little energy, or a smooth maximum, may be in the step
-            balanced: excess.abs() <= allowed && !(breaks_off && peak > BROKEN_OFF),
+            // corners of the load, where nodes come into contact, are smaller
+            balanced: excess.abs() <= allowed && !(breaks_off && peak > PARTLY),
             jumped: -excess > corner,
             located: false,
-            peaks: peak > PEAK,
+            peaks: peak > LITTLE,
             allowed,
             work: energy - excess,
             excess,

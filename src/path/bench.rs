@@ -7,19 +7,14 @@ use super::course::Course;
 use super::settings::PathSettings;
 use super::sharp::Sharp;
 use crate::constraint::ContactConstraint;
+use crate::degrees::{CLOSELY, LITTLE, ROUNDINGS};
 use crate::error::Result;
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Begin, Criterion, Least, Observer, Potential, ROUNDINGS, Report, Solved, Solver, Start};
+use crate::solver::{Begin, Criterion, Least, Observer, Potential, Report, Solved, Solver, Start};
 
 /// The number of gaps at which a law without a wall is asked whether it bears a pressure.
 const CLOSEST: usize = 64;
-
-/// The tolerance of a solve as a share of the root of the imbalance, if none is given: an energy is wrong by its square.
-const SHARE: f64 = 0.01;
-
-/// The largest such tolerance: less accurate states jump too early.
-const LOOSEST: f64 = 1e-4;
 
 /// What a path is followed with.
 pub(crate) struct Bench<'a, T: Real> {
@@ -89,7 +84,8 @@ impl<T: Real> Bench<'_, T> {
         let given = self.solver.settings;
         if given.tolerance.is_none() && given.criterion == Criterion::EnergyNorm {
             let least = given.tolerance_in::<T>();
-            let tolerance = (SHARE * settings.imbalance.sqrt()).clamp(least, LOOSEST.max(least));
+            // an energy is wrong by the square of the error of its state, and less accurate states jump too early
+            let tolerance = (LITTLE * settings.imbalance.sqrt()).clamp(least, CLOSELY.max(least));
             self.solver.settings.tolerance = Some(tolerance);
         }
         let solved = self.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *self.observe);

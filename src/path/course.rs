@@ -6,6 +6,7 @@ use super::bracket::Bracket;
 use super::figures::{Figures, Mode};
 use super::quadrature::trapezoid;
 use super::{Event, Jump, PathSettings};
+use crate::degrees::HARDLY;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
@@ -48,9 +49,6 @@ pub(super) struct Course {
     pub(super) at: Vec<Figures>,
     pub(super) bracket: Option<Bracket>,
 }
-
-/// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
-const LANDING: f64 = 1e-3;
 
 /// The step after a jump, as a share of that before it.
 const REGAINED: f64 = 0.25;
@@ -240,7 +238,7 @@ impl Course {
         let Some((end, start)) = self.pressures else { return false };
         let (before, after) = (self.here().pressure, report.mean_pressure);
         let beyond = (after - end) * (end - start).signum();
-        if beyond <= LANDING * (end - start).abs() || (after - before) * (end - start) <= 0.0 {
+        if beyond <= HARDLY * (end - start).abs() || (after - before) * (end - start) <= 0.0 {
             return false;
         }
         let share = ((end - before) / (after - before)).clamp(0.1, 0.9);
@@ -358,7 +356,7 @@ impl Course {
     fn land(&mut self, next: Figures, settings: &PathSettings) {
         let Some((end, start)) = self.pressures else { return };
         let short = (end - next.pressure) * (end - start).signum();
-        if short <= LANDING * (end - start).abs() {
+        if short <= HARDLY * (end - start).abs() {
             self.end_leg();
         } else if !self.free && end > start && next.gap == self.span.1 {
             // pressed flat, the surfaces bear any pressure

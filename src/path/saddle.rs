@@ -2,14 +2,12 @@
 
 use super::Path;
 use super::bench::Bench;
+use crate::degrees::PARTLY;
 use crate::error::Result;
 use crate::problem::{Control, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Begin, Place, Solution, Solved, Start, Status};
-use crate::stability::{Near, PERTURBATION, Saddle};
-
-/// The share of the mode in the last change of the gap above which the state jumps; below, a symmetry breaks.
-const DRAWN: f64 = 0.1;
+use crate::stability::{Near, Saddle};
 
 /// The largest number of saddles that are left one after the other at one load.
 const SADDLES: usize = 4;
@@ -42,10 +40,10 @@ impl<T: Real> Path<T> {
             moved
         });
         let share = moved.map_or(0.0, |moved| self.watch.share(&moved, &grid));
-        let drawn = share.abs() > DRAWN;
+        let drawn = share.abs() > PARTLY;
         let mut gap = from.gap.clone();
         for _ in 0..SADDLES {
-            let amplitude = PERTURBATION * bench.problem.law_on_grid().hints().range.widen();
+            let amplitude = PARTLY * bench.problem.law_on_grid().hints().range.widen();
             let least = bench.least();
             self.watch.displace((&mut gap, &grid), least, amplitude, drawn.then_some(share));
             let left = bench.solve(&self.settings, control, Begin::At(Start::From(&gap)))?;

@@ -1,13 +1,13 @@
 //! A bracket: the tensions that surfaces bear, and the least tension that they do not.
 
+use crate::degrees::PARTLY;
 use crate::solver::Report;
 
 /// The least and the largest next tension over the last tension borne, as long as no tension is too large.
 const GROWTH: (f64, f64) = (1.2, 2.5);
 
-/// The share of a bracket that a tension leaves to both sides at least, and the share below a tension that is tried without a
-/// peak: a state that holds costs less than surfaces that come apart.
-const MARGIN: f64 = 0.1;
+/// The share of a bracket below a tension that is tried without a peak: a state that holds costs less than surfaces that come
+/// apart.
 const BELOW: f64 = 0.35;
 
 /// A tension that is borne, and how far the bodies are there: the mean gap, with a free boundary minus the approach.
@@ -80,7 +80,7 @@ impl Bracket {
             // lost from farther off
             return lost;
         }
-        let inside = MARGIN * (lost - low);
+        let inside = PARTLY * (lost - low);
         let Some(peak) = peak.filter(|&peak| low < peak && peak < lost) else {
             return if low > 0.0 && lost > 2.0 * low { (low * lost).sqrt() } else { low + BELOW * (lost - low) };
         };

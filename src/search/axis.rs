@@ -4,13 +4,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::bracket::{Point, Target};
 use crate::constraint::Wall;
+use crate::degrees::LITTLE;
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat};
 use crate::real::Real;
-
-/// The least mean gap of a search, over the rms height, where surfaces yield: it is to the surface as it was made, and
-/// the contact may grow on below zero.
-const CLOSEST: f64 = 0.01;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Axis {
@@ -79,7 +76,8 @@ impl Axis {
                 let Target { fraction, facing, nodes } = target;
                 (facing / nodes * hardness.bears(fraction.min(1.0 - facing.recip()))).ln()
             }
-            (Self::Gap { rms_height }, Some(_)) => -(CLOSEST * rms_height).ln(),
+            // the gap is to the surface as it was made, and the contact may grow on below zero
+            (Self::Gap { rms_height }, Some(_)) => -(LITTLE * rms_height).ln(),
             _ => f64::INFINITY,
         }
     }

@@ -2,13 +2,11 @@
 
 use super::axis::Axis;
 use crate::constraint::Wall;
+use crate::degrees::LITTLE;
 use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::Real;
 use crate::solver::Branch;
-
-/// The relative error of the contact fraction at which a search ends.
-const TOLERANCE: f64 = 0.01;
 
 /// The width of a bracket in which the contact jumps, in the logarithm of the load or relative to the approach.
 const WIDTH: f64 = 1e-5;
@@ -50,7 +48,7 @@ impl Target {
 
     /// The distance of a contact from the wanted one, in units of the tolerance.
     pub(super) fn off(self, nodes: usize) -> f64 {
-        (nodes as f64 - self.wanted()).abs() / (TOLERANCE * self.wanted()).max(1.0)
+        (nodes as f64 - self.wanted()).abs() / (LITTLE * self.wanted()).max(1.0)
     }
 
     pub(super) fn is_met_by(self, Point { nodes, .. }: Point) -> bool {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::slice::Chunks;
 
+use crate::degrees::HARDLY;
 use crate::elastic::{CoarseSpace, ElasticOperator};
 use crate::field::Field;
 use crate::grid::Grid;
@@ -16,9 +17,6 @@ const DIMENSION: f64 = 4.0;
 
 /// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best on any grid.
 const STIFFNESS: f64 = 2.5;
-
-/// The stiffness of the mean gap without contacts, over the stiffness of the softest wave.
-const MEAN: f64 = 1e-3;
 
 /// The iterations before the first renewal of the contact map, which costs conjugacy, and the ratio of later intervals.
 const INTERVAL: f64 = 2.0;
@@ -69,7 +67,8 @@ impl Coarse {
     ) {
         let contact = self.map(field, touches);
         let stiffness = (STIFFNESS * stiffness).max(softest).min(stiffest);
-        self.ready = contact && self.space.renew(&self.contact, stiffness, MEAN * softest + spring, held);
+        // the mean gap without contacts
+        self.ready = contact && self.space.renew(&self.contact, stiffness, HARDLY * softest + spring, held);
         if self.ready {
             self.due = iteration + self.interval as usize;
             self.interval *= LONGER;

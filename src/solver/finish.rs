@@ -6,9 +6,10 @@ use super::descent::Descent;
 use super::iterate::Iterate;
 use super::passes::Fields;
 use super::plastic::yielded;
-use super::posed::{HARDLY, Posed};
+use super::posed::Posed;
 use super::report::{Plastic, Report, Solution, Solved, Status};
 use crate::adhesion::{AdhesionLaw, mu_rho, noticeable};
+use crate::degrees::HARDLY;
 use crate::error::Result;
 use crate::field::{Field, Minimum, Sums, found, read, write};
 use crate::grid::Grid;
@@ -16,9 +17,6 @@ use crate::par::Parts;
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 use crate::vector::sums;
-
-/// The share of a noticeable traction below which bodies that are apart hardly attract each other.
-const LAST: f64 = 1e-4;
 
 found! {
     /// The sums over the fields of a solution.
@@ -206,7 +204,7 @@ impl<T: Real> Solution<T> {
         let [at_edge, largest] = tractions.map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
         let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
         // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
-        let attract = !law.hints().zero && largest > LAST * noticeable(law);
+        let attract = !law.hints().zero && largest > HARDLY * noticeable(law);
         let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
         // what the tolerance leaves of the pressures
         let noise = report.tolerance * flat.stiffness * flat.rms_height;

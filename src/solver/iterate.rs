@@ -3,9 +3,10 @@
 use super::Method;
 use super::minimisation::{Made, Next, Residual, Step};
 use super::passes::{self, Advance, Continued, Fields, Taken, Tally, Working};
-use super::posed::{HARDLY, Posed};
+use super::posed::Posed;
 use super::start::{Begin, check_start, given_start, uniform_start};
 use super::work::Work;
+use crate::degrees::HARDLY;
 use crate::error::Result;
 use crate::field::{Field, Minimum, read, write};
 use crate::par::Parts;

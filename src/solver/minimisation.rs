@@ -1,9 +1,5 @@
 //! The parts of a minimisation: its steps, and the sums that they use.
 
-/// The least share that counts: of the elastic curvature, of a clipped step, and of the stiffness of the softest wave in
-/// the stiffness of the mean gap.
-pub(super) const LEAST: f64 = 0.01;
-
 /// What the start of a solve knows of the solution, in ascending order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub enum Nearness {

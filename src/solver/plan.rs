@@ -2,16 +2,7 @@
 
 use super::Branch;
 use super::tension::Hold;
-
-/// The tolerance of the wall alone as a start: adhesion changes the gap by more.
-const WALL: f64 = 1e-2;
-
-/// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
-const START: f64 = 1e-4;
-
-/// The tolerance of a state that tells where to go on: how much tension it holds, where else surfaces touch, how far its
-/// contact is from a wanted one.
-pub(crate) const ROUGHLY: f64 = 1e-3;
+use crate::degrees::{CLOSELY, LITTLE, ROUGHLY};
 
 /// The law of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,11 +31,12 @@ impl Stage {
     /// A state that may hold a tensile load, at a mean gap or under no load.
     pub(super) const HOLD: Self = Self { law: StageLaw::Own, rigid: false, tolerance: Some(ROUGHLY) };
     /// A start for the law itself, by the law with its jumps smoothed.
-    pub(super) const SMOOTHED: Self = Self { law: StageLaw::Smoothed, rigid: false, tolerance: Some(START) };
+    pub(super) const SMOOTHED: Self = Self { law: StageLaw::Smoothed, rigid: false, tolerance: Some(CLOSELY) };
 
     /// The gap that the wall alone leaves, without adhesion: a start on the branch of loading.
     const fn wall(rigid: bool) -> Self {
-        Self { law: StageLaw::None, rigid, tolerance: Some(WALL) }
+        // adhesion changes the gap by more
+        Self { law: StageLaw::None, rigid, tolerance: Some(LITTLE) }
     }
 }
 
@@ -88,7 +80,7 @@ pub(super) fn plan(facts: Facts) -> Plan {
     let rigid = seeks && stiff && !torn;
     let law = if jumps { StageLaw::Smoothed } else { StageLaw::Own };
     let wall = from_afar.then_some(Stage::wall(repels));
-    let start = (rigid || jumps && !torn).then_some(Stage { law, rigid, tolerance: Some(START) });
+    let start = (rigid || jumps && !torn).then_some(Stage { law, rigid, tolerance: Some(CLOSELY) });
     Plan { starts: wall.into_iter().chain(start).collect(), torn, holds: if seeks && !torn { &Hold::ALL } else { &[] } }
 }
 

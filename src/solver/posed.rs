@@ -13,14 +13,11 @@ use super::tension::Hold;
 use super::{Branch, Method, Settings};
 use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw, Touched};
 use crate::constraint::{ContactConstraint, Projection, Wall};
+use crate::degrees::HARDLY;
 use crate::error::Result;
 use crate::field::Field;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::real::Real;
-
-/// A share that is hardly any: of the pressure that presses the surface flat, of a tension that is held without contact,
-/// of the largest traction at the edge of a window, of a work that rounding may take.
-pub(super) const HARDLY: f64 = 1e-3;
 
 /// The stiffness of springs, over the stiffness of the stiffest wave, above which a solve with springs starts from a
 /// rigid wall.

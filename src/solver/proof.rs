@@ -2,8 +2,7 @@
 
 use super::Criterion;
 use super::iterate::{Iterate, SCALED};
-use super::plan::ROUGHLY;
-use super::work::ROUNDINGS;
+use crate::degrees::{ROUGHLY, ROUNDINGS};
 use crate::problem::Load;
 use crate::real::Real;
 

@@ -6,8 +6,9 @@ use super::driver::Observer;
 use super::minimisation::Nearness;
 use super::passes::Fields;
 use super::plan::Stage;
-use super::posed::{HARDLY, Posed};
+use super::posed::Posed;
 use super::stages::adhere;
+use crate::degrees::{FAR, HARDLY, PARTLY};
 use crate::error::Result;
 use crate::field::{found, read};
 use crate::problem::Load;
@@ -26,12 +27,6 @@ const SAMPLES: usize = 1000;
 
 /// How much more than concave functions the tension may rise between mean gaps at which it is known.
 const RISE: f64 = 2.0;
-
-/// The excess over the strongest of the sampled tractions that there may be between the samples.
-const BETWEEN: f64 = 1.1;
-
-/// The distance, in ranges of adhesion beyond the heights, at which surfaces are held apart, and the largest of a hold.
-const REACH: f64 = 10.0;
 
 /// Where adhesion may hold surfaces that have come apart from full contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,13 +52,13 @@ found! {
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// The mean gap from which on the surfaces hardly attract each other.
     fn out_of_reach(&self) -> f64 {
-        self.flat.height_span + REACH * self.law().hints().range.widen()
+        self.flat.height_span + FAR * self.law().hints().range.widen()
     }
 
     /// Whether the load pulls by more than the law's strongest traction on all nodes that face the surface.
     pub(super) fn is_torn(&self) -> bool {
         let facing = self.facing() / self.nodes();
-        matches!(self.load, Load::Pressure(load) if -load > BETWEEN * facing * self.strongest_traction())
+        matches!(self.load, Load::Pressure(load) if -load > (1.0 + PARTLY) * facing * self.strongest_traction())
     }
 
     /// The gap of nodes that touch: zero at a wall, the gap of rest where the law itself repels.
@@ -80,7 +75,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         if range <= 0.0 && !hints.zero {
             return f64::INFINITY;
         }
-        let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
+        let gaps = (0..SAMPLES).map(|i| T::lit(FAR * range * i as f64 / SAMPLES as f64));
         gaps.map(|gap| self.law().traction(gap).widen()).fold(0.0, f64::max)
     }
 
@@ -123,7 +118,7 @@ pub(super) fn hold_gap<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, obse
     };
     let (touch, rest) = (descent.iterate.posed.flat.peak, descent.iterate.posed.closest().widen());
     let mut interval =
-        [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * descent.iterate.posed.law().hints().range.widen()];
+        [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * FAR * descent.iterate.posed.law().hints().range.widen()];
     let [mut gaps, mut held] = [[0.0; 2]; 2];
     let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
     for section in 0..SECTIONS {

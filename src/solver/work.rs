@@ -3,9 +3,6 @@
 //! With u = g + h it is ⟨g, p⟩ + ⟨g, K⁻¹h⟩ + ⟨h, K⁻¹h⟩, sums over fields that an iteration reads anyway. Under light
 //! loads they cancel, to less than their rounding; one application then gives ⟨p, K p⟩, a sum of squares.
 
-/// The roundings of a sum of products, and of a difference of sums, in units of ε.
-pub(crate) const ROUNDINGS: f64 = 8.0;
-
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     pub(super) sum: f64,

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Stability;
 use crate::constraint::ContactConstraint;
+use crate::degrees::PARTLY;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
 use crate::real::{Real, once};
@@ -33,9 +34,6 @@ pub struct Departure<T: Real> {
     /// 1 if it left along the mode, −1 if against it.
     pub direction: f64,
 }
-
-/// The largest change of the gap that a perturbation makes, in ranges of adhesion.
-pub(crate) const PERTURBATION: f64 = 0.1;
 
 impl<T: Real> Stability<T> {
     /// Leaves an equilibrium: perturbs its gap along the mode both ways, minimises on under the control of the test
@@ -87,7 +85,7 @@ impl<T: Real> Stability<T> {
         let (grid, control) = (from.grid, self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let largest = T::lit(grid.each(largest.widen()).into_iter().fold(0.0, f64::max));
-        let amplitude = T::lit(PERTURBATION) * problem.law_on_grid().hints().range / largest;
+        let amplitude = T::lit(PARTLY) * problem.law_on_grid().hints().range / largest;
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
         }

@@ -1,6 +1,7 @@
 //! The smallest eigenvalue, by locally optimal preconditioned conjugate gradients (Knyazev 2001).
 
 use super::hessian::Hessian;
+use crate::degrees::LITTLE;
 use crate::error::Result;
 use crate::field::{Field, read};
 use crate::par::Parts;
@@ -17,9 +18,6 @@ pub(super) struct Eigenpair<T> {
     pub(super) vector: Field<T>,
 }
 
-/// The largest error of the eigenvalue as a share of it, by r²/gap with the softest stiffness for the gap to the next.
-pub(super) const UNCERTAIN: f64 = 0.01;
-
 /// The least component outside the span of the other vectors, as a share; below, a vector counts as dependent.
 const DEPENDENT: f64 = 1e-10;
 
@@ -34,7 +32,8 @@ pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most
     drop(random);
     lowest_from(hessian, start, most, true, |hessian, found| {
         let scale = found.value.abs().max(hessian.softest());
-        found.residual <= tolerance * scale && found.residual * found.residual <= UNCERTAIN * found.value.abs() * scale
+        // the error of the eigenvalue is r²/gap, with the softest stiffness for the gap to the next one
+        found.residual <= tolerance * scale && found.residual * found.residual <= LITTLE * found.value.abs() * scale
     })
 }
 

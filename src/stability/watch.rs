@@ -2,11 +2,12 @@
 
 use ndarray::Array2;
 
-use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
+use super::eigenpair::{Eigenpair, lowest_from, normalise};
 use super::hessian::Hessian;
 use super::{Near, slopes};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
+use crate::degrees::{LITTLE, ROUGHLY};
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::field::Field;
@@ -20,12 +21,6 @@ const FRESH: f64 = 0.03;
 
 /// Iterations on a state at most.
 const MOST: usize = 200;
-
-/// The relative residual to which the mode of a saddle is found.
-const SHARP: f64 = 1e-3;
-
-/// The share of its largest value that a mode has at the node that gives its sign.
-const NEARLY: f64 = 0.99;
 
 /// The watch for saddles at given mean gaps; each search starts from the last mode.
 #[derive(Clone, Debug)]
@@ -89,12 +84,12 @@ impl<T: Real> Watch<T> {
         let mut pair = lowest_from(&mut hessian, start, MOST, false, |hessian, found| {
             let scale = found.value.max(hessian.softest());
             found.value < -found.noise
-                || found.iteration > 0 && found.residual * found.residual <= UNCERTAIN * found.value * scale
+                || found.iteration > 0 && found.residual * found.residual <= LITTLE * found.value * scale
         })?;
         let unstable = |pair: &Eigenpair<T>| pair.value < -pair.noise;
         if unstable(&pair) {
             pair = lowest_from(&mut hessian, pair.vector, MOST, true, |hessian, found| {
-                found.residual <= SHARP * found.value.abs().max(hessian.softest())
+                found.residual <= ROUGHLY * found.value.abs().max(hessian.softest())
             })?;
         }
         let saddle = unstable(&pair).then_some(Saddle { eigenvalue: pair.value });
@@ -123,7 +118,8 @@ impl<T: Real> Watch<T> {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
         let top = T::lit(grid.each(top.widen()).into_iter().fold(0.0, f64::max));
-        let own = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top).map_or(f64::NAN, |value| value.widen());
+        let own =
+            mode.iter().find(|value| value.abs() >= T::lit(1.0 - LITTLE) * top).map_or(f64::NAN, |value| value.widen());
         let first = grid.each(own).into_iter().find(|value| !value.is_nan());
         let sign = share.unwrap_or_else(|| -first.unwrap_or_default()).signum();
         let factor = T::lit(sign * largest) / top;

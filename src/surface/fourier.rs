@@ -6,13 +6,10 @@ use asperity_fft::num_complex::Complex;
 use ndarray::Array2;
 
 use super::Surface;
+use super::pair::SAME;
 use crate::error::{Error, Result};
 use crate::fft::synthesise;
 use crate::grid::Grid;
-
-/// The largest difference of a coefficient from the complex conjugate of the opposite wave's coefficient, relative to
-/// the larger of the two: files have some seven digits.
-const CONJUGATE: f64 = 1e-6;
 
 /// A surface as a Fourier series, by the coefficients ĥ of its waves with m periods along x and n along y:
 ///
@@ -90,7 +87,7 @@ impl FourierSeries {
         // the mean is its own opposite
         let expected = if m == 0.0 && n == 0.0 { value.conj() } else { *known };
         let off = (value - expected).norm() / value.norm().max(expected.norm());
-        if off > CONJUGATE && (given[usize::from(!turned)] || place == [0, 0]) {
+        if off > SAME && (given[usize::from(!turned)] || place == [0, 0]) {
             let name = "relative difference from the complex conjugate of the coefficient of the opposite wave";
             return Err(Error::Value { name, value: off, requirement: "at most 1e-6: leave one of the two out" });
         }

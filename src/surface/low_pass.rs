@@ -5,13 +5,11 @@ use std::f64::consts::TAU;
 use ndarray::Array2;
 
 use super::mean_of_finite;
+use super::self_affine::SLACK;
 use crate::error::{Error, Result};
 use crate::fft::filtered;
 use crate::field::all_finite;
 use crate::grid::Grid;
-
-/// The share by which a wavelength may be below the cut-off by rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// Heights with side lengths `lengths` = (Lx, Ly) without the waves shorter than a `cut_off`, a wavelength in the unit
 /// of the side lengths; waves of this length stay.
@@ -45,7 +43,8 @@ pub fn low_pass(mut heights: Array2<f64>, lengths: (f64, f64), cut_off: f64) -> 
     // about the mean, so that a large datum costs no digits
     let mean = mean_of_finite(&heights);
     heights.mapv_inplace(|h| h - mean);
-    let most = TAU / cut_off * (1.0 + ROUNDING);
+    // a wavelength may be below the cut-off by rounding
+    let most = TAU / cut_off * (1.0 + SLACK);
     let mut left = filtered(heights.view(), |kx, ky| grid.wave_number_x(kx).hypot(grid.wave_number_y(ky)) <= most)?;
     left.mapv_inplace(|h| h + mean);
     Ok(left)

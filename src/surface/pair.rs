@@ -9,8 +9,8 @@ use super::Surface;
 use super::resample::{by_lines, changed};
 use crate::error::{Error, Result};
 
-/// The relative difference that the side lengths of two surfaces may have, as texts round them.
-const SAME: f64 = 1e-6;
+/// The relative difference of numbers that may be the same: texts have some seven digits.
+pub(super) const SAME: f64 = 1e-6;
 
 /// The distance from a whole number of nodes, in nodes, below which a shift is one.
 const WHOLE: f64 = 1e-9;

@@ -14,7 +14,7 @@ use crate::grid::Grid;
 use crate::setters::setters;
 
 /// Relative slack at the ends of the spectrum, so that the rounding of Lx/Ly decides on no wave.
-const SLACK: f64 = 1e-12;
+pub(super) const SLACK: f64 = 1e-12;
 
 /// The amplitude of the roughness of a [`SelfAffine`] surface.
 #[non_exhaustive]

@@ -309,7 +309,7 @@ type Decided = (&'static str, End, &'static [(u64, usize)]);
 /// Scenes that a constant of the driver decides: without it they end otherwise, or take about twice as many iterations.
 const DECIDED: &[Decided] = &[
     ("LEAST of a step", End::Converged, &[(3367, 40), (3622, 30), (4822, 40)]),
-    ("FARTHEST", End::Converged, &[(658, 40), (4939, 14), (1771, 24)]),
+    ("FAR", End::Converged, &[(658, 40), (4939, 14), (1771, 24)]),
     ("HELD", End::Converged, &[(1232, 100), (2471, 60), (4939, 14)]),
     ("CLOSER", End::Converged, &[(4049, 60), (4246, 100), (4424, 30)]),
     ("HARDLY of a load", End::Converged, &[(773, 40), (802, 40), (2731, 25)]),

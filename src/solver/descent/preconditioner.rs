@@ -1,6 +1,7 @@
 //! The preconditioner, and the certificate that comes with it.
 
 use super::Descent;
+use crate::degrees::PARTLY;
 use crate::elastic::Foundation;
 use crate::error::Result;
 use crate::real::Real;
@@ -11,9 +12,6 @@ use crate::solver::passes::{self, Fields, idles};
 /// The iterations from a far start under a pressure, and the load error, before the contact map is settled.
 const UNSETTLED: usize = 3;
 const LOADED: f64 = 0.3;
-
-/// The same for the relative error with adhesion.
-const SETTLED: f64 = 0.1;
 
 /// The stiffness of one node over the stiffness of the stiffest wave: the reciprocal of a square grid's mean
 /// compliance.
@@ -56,7 +54,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
         let loaded = self.iterate.posed.nearness > Nearness::Afar
             || self.iterate.posed.is_gap_controlled()
             || (self.iterations >= UNSETTLED && self.proof().load_error() <= LOADED);
-        loaded && (!self.iterate.posed.adheres() || self.proof().relative_error() <= SETTLED)
+        loaded && (!self.iterate.posed.adheres() || self.proof().relative_error() <= PARTLY)
     }
 
     /// Renews the contact map now and then, from the nodes outside of the working set or those that springs hold.

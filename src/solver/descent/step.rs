@@ -1,20 +1,18 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
 use super::Descent;
+use crate::degrees::{FAR, LITTLE};
 use crate::error::Result;
 use crate::field::{CHUNK, Sums, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::iterate::Iterate;
-use crate::solver::minimisation::{LEAST, Nearness, Next, Step};
+use crate::solver::minimisation::{Nearness, Next, Step};
 use crate::solver::passes::{self, Attempt, Fields, Tried, idles};
 use crate::solver::potential::CLOSER;
 
 /// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
-
-/// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
-const FARTHEST: f64 = 10.0;
 
 /// The share of a step that the next one takes along where the law pulls more than the body resists: on the way from one
 /// equilibrium to another.
@@ -111,7 +109,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
                 self.iterate.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.iterate.applied();
             let Some(step) = self.search(&trial, elastic * self.iterate.posed.nodes()) else { return Ok(None) };
-            if trial.tried.blocked == 0.0 || self.iterate.has_yielded() || step.length >= LEAST {
+            if trial.tried.blocked == 0.0 || self.iterate.has_yielded() || step.length >= LITTLE {
                 return Ok(Some(self.iterate.advance(step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
@@ -134,7 +132,8 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
         let momentum = self.iterate.take_momentum().and_then(|made| {
             let (conjugate, remainder) = if made.curvature > 0.0 {
                 let overlap = self.preconditioned.descent - made.overlap;
-                ((overlap / made.curvature).max(0.0), (-made.factor * made.descent / made.curvature).min(FARTHEST))
+                // the mean gap has no elastic curvature that would limit a step
+                ((overlap / made.curvature).max(0.0), (-made.factor * made.descent / made.curvature).min(FAR))
             } else if made.factor * made.descent < 0.0 {
                 (0.0, ONWARD)
             } else {
@@ -313,9 +312,9 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
             return None;
         }
         let (slopes, quadratic) = (trial.slopes, elastic + spring);
-        let stiff = quadratic + slopes > LEAST * quadratic;
-        let curvature = if stiff { quadratic + slopes } else { LEAST * quadratic };
-        let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
+        let stiff = quadratic + slopes > LITTLE * quadratic;
+        let curvature = if stiff { quadratic + slopes } else { LITTLE * quadratic };
+        let best = (-(trial.slope + trial.kink) / curvature).min(FAR);
         // nodes that pass their corners leave none along the tangent: the whole step, which the search halves
         let best = if trial.kink > 0.0 && best <= 0.0 { 1.0 } else { best };
         let mut length = match trial.is_clipped() {

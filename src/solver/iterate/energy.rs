@@ -1,10 +1,11 @@
 //! The energy of a state, the elastic work in it, and their rounding.
 
 use super::Iterate;
+use crate::degrees::ROUNDINGS;
 use crate::error::Result;
 use crate::real::Real;
 use crate::solver::passes::Fields;
-use crate::solver::work::{ROUNDINGS, Work};
+use crate::solver::work::Work;
 
 /// The residual, in units of the rounding of its updates, below which the pressure is computed anew.
 const STALE: f64 = 200.0;

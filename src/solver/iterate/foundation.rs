@@ -1,11 +1,9 @@
 //! The foundation of the preconditioner: the stiffness of the contacts.
 
 use super::Iterate;
+use crate::degrees::{LITTLE, PARTLY};
 use crate::real::Real;
-use crate::solver::minimisation::{LEAST, Nearness};
-
-/// The least stiffness of the contacts, over the stiffness of the softest wave.
-const SOFTEST: f64 = 0.1;
+use crate::solver::minimisation::Nearness;
 
 impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
@@ -21,7 +19,7 @@ impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
         }
         let contact = self.contact_stiffness();
         let near = self.posed.nearness > Nearness::Afar || self.posed.is_gap_controlled();
-        if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
+        if near && contact.is_finite() { contact.clamp(PARTLY * softest, stiffest) } else { softest }
     }
 
     /// The stiffness of the mean gap in the preconditioner: of the contacts, and of a spring. On the way from a far
@@ -37,14 +35,14 @@ impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
             return contact + self.posed.load.stiffness();
         }
         let mean = (softest * self.contact_stiffness()).sqrt();
-        let contact = if mean.is_finite() { mean.clamp(LEAST * softest, stiffest) } else { softest };
+        let contact = if mean.is_finite() { mean.clamp(LITTLE * softest, stiffest) } else { softest };
         contact + self.posed.load.stiffness()
     }
 
     /// Whether the bodies are apart on a spring softer than the preconditioner's mean gap.
     pub(in crate::solver) fn hangs_on_spring(&self) -> bool {
         let spring = self.posed.load.stiffness();
-        let soft = spring > 0.0 && spring < LEAST * self.posed.stiffness_range().0;
+        let soft = spring > 0.0 && spring < LITTLE * self.posed.stiffness_range().0;
         soft && self.tally.contact == 0.0
     }
 

@@ -1,13 +1,10 @@
 //! Whether a load has pulled surfaces apart.
 
 use super::Proof;
+use crate::degrees::{HARDLY, LITTLE};
 use crate::problem::Load;
 use crate::real::Real;
-use crate::solver::posed::HARDLY;
 use crate::solver::tension::STRONGEST;
-
-/// The relative error at which the waves of surfaces apart are at rest.
-const AT_REST: f64 = 1e-2;
 
 impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     /// Whether a load that does not press has left the surfaces apart: no contact, and hardly any traction.
@@ -42,7 +39,7 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
         let exceeds = self.iterate.tally().traction < self.pulled() && (hints.concave || hints.shape.is_none());
         let flies = self.stored() < least * hints.work_of_adhesion.widen()
             && (exceeds || self.pulled() == 0.0 && self.iterate.posed.from_full_contact);
-        flies && matches!(self.iterate.posed.load, Load::Pressure(_)) && self.relative_error() <= AT_REST
+        flies && matches!(self.iterate.posed.load, Load::Pressure(_)) && self.relative_error() <= LITTLE
     }
 
     /// The energy of adhesion in all.
