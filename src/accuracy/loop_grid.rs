@@ -18,6 +18,10 @@ use crate::surface::Surface;
 /// contacts have many nodes, and is nearer to one where they have few; the share of the places that touch falls as that.
 const LEFT: f64 = 0.7;
 
+/// The least number of nodes along a side of the grids with which the search begins, where the grid of a surface is finer than
+/// that by more than two halves.
+const FIRST: usize = 32;
+
 /// The numbers of 8 bytes that a path takes for each node, besides those of a solve: its gaps, and the softest mode.
 const KEPT: f64 = 24.0;
 
@@ -60,11 +64,11 @@ impl Accuracy {
     /// The grid on which a loop is likely to have the accuracy, by a law that attracts next to contacts alone; none if
     /// `follow` returns none.
     ///
-    /// `follow` follows the loop on a surface with a law, and returns its end: first on grids of a quarter and of half of
-    /// the nodes along the sides. As long as the error of the [limit](LoopLimit) that is to be expected exceeds the
-    /// accuracy, it follows on the next grid: the grid of the surface, and then grids of twice as many nodes, for which the
-    /// surface is interpolated as by [`Accuracy::solve`]. It ends before, if the error that is found there meets the accuracy.
-    /// The loop on the grid that is returned is left to be followed: with the end on the last of the levels,
+    /// `follow` follows the loop on a surface with a law, and returns its end: first on coarser grids, each with half of the
+    /// nodes of the next along the sides, from 32 nodes on, or a quarter of the nodes of the surface. As long as the error of
+    /// the [limit](LoopLimit) that is to be expected exceeds the accuracy, it follows on the next grid: the grid of the
+    /// surface, and then grids of twice as many nodes, for which the surface is interpolated as by [`Accuracy::solve`]. It
+    /// ends with the first grid on which the error that is found meets the accuracy. The loop on the grid that is returned is left to be followed: with the end on the last of the levels,
     /// [`LoopLimit::of`] tells its limit and its error. `operator` is the operator on the grid of the surface.
     ///
     /// # Errors
@@ -106,11 +110,16 @@ impl Accuracy {
         let padding = operator.grid().nodes() as f64 / surface.grid().nodes() as f64;
         let bytes = |(nx, ny): (usize, usize)| 8.0 * (NUMBERS + KEPT) * padding * nx as f64 * ny as f64;
         let (mut surface, mut law, mut levels) = (surface.clone(), SharedLaw(law), Vec::new());
-        for coarse in coarser {
-            let Some(end) = follow(&coarse, &on_coarse(&law, &surface, &coarse).0)? else { return Ok(None) };
-            levels.push((coarse.grid().shape(), end));
-        }
         let mut refinable = is_refinable(&surface, &*law);
+        for coarse in coarser {
+            let (shape, on_coarse) = (coarse.grid().shape(), on_coarse(&law, &surface, &coarse).0);
+            let Some(end) = follow(&coarse, &on_coarse)? else { return Ok(None) };
+            levels.push((shape, end));
+            if let Some(expected) = self.found(&mut levels) {
+                let (surface, law, bytes) = (coarse, on_coarse, bytes(shape));
+                return Ok(Some(LoopGrid { surface, law, levels, expected, bytes, refinable, unaffordable: None }));
+            }
+        }
         loop {
             let (errors, shape) = (self.errors_of_loop(&levels), surface.grid().shape());
             let (expected, finer) = (left(errors, 1), twice(shape));
@@ -130,20 +139,24 @@ impl Accuracy {
             };
             let Some(end) = follow(&surface, &law.0)? else { return Ok(None) };
             levels.push((shape, end));
-            let [of_grid, of_jumps] = self.errors_of_loop(&levels);
-            let found = of_grid.hypot(of_jumps);
-            if found <= self.target {
-                // the limit of this grid is told by the coarser ones
-                levels.pop();
+            if let Some(expected) = self.found(&mut levels) {
                 let (law, bytes, unaffordable) = (law.0, bytes(shape), None);
-                return Ok(Some(LoopGrid { surface, law, levels, expected: found, bytes, refinable, unaffordable }));
+                return Ok(Some(LoopGrid { surface, law, levels, expected, bytes, refinable, unaffordable }));
             }
             law = on_twice(law, &surface, &fine);
             surface = fine;
         }
     }
 
-    /// The surface on the grids of a quarter and of half of the nodes along the sides, as far as there are any.
+    /// The relative error on the last of some levels, if it meets the accuracy; the coarser levels tell the limit there, and stay.
+    fn found(&self, levels: &mut Vec<((usize, usize), PathEnd)>) -> Option<f64> {
+        let [of_grid, of_jumps] = self.errors_of_loop(levels);
+        let found = of_grid.hypot(of_jumps);
+        (found <= self.target).then(|| levels.pop()).map(|_| found)
+    }
+
+    /// The surface on coarser grids, the coarsest first: those of half and of a quarter of the nodes along the sides, as far as
+    /// there are any, and those before with no less than [`FIRST`].
     fn grids_below<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> Result<Vec<Surface>> {
         surface.grid().slab().alone("accuracy")?;
         Error::positive("accuracy", self.target)?;
@@ -157,7 +170,12 @@ impl Accuracy {
             return Err(Error::Unsuited { what, reason });
         }
         let mut coarser = coarsened(surface, COARSEST, hints.shape.is_none())?;
-        coarser.truncate(2);
+        let least = |surface: &Surface| {
+            let (nx, ny) = surface.grid().shape();
+            [nx, ny].into_iter().filter(|&nodes| nodes > 1).min().unwrap_or(0)
+        };
+        let few = coarser.iter().skip(2).take_while(|coarse| least(coarse) >= FIRST).count();
+        coarser.truncate(2 + few);
         if coarser.is_empty() {
             let reason = "a grid of half as many nodes along the sides tells it, and there is none of 16 nodes or more, with \
                           every second node of this one: take more nodes, a number that is a power of two";

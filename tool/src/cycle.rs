@@ -33,11 +33,11 @@ keys! {
     /// of the file. It has the columns of asperity sweep, the work of the load and the energy dissipated in jumps so far,
     /// the imbalance of energy (all per area), and the event on the way to it: touch, jump-in, jump-out, pull-off,
     /// limit-point, bifurcation. With jkr the same cycle on half as many nodes along the sides tells the limits of no range
-    /// of the work and of the greatest tension, with their errors, and --accuracy chooses the grid by them. With a hardness the surface keeps its plastic depth, and
-    /// the balance has the energy that yielding dissipates. The same command continues an interrupted cycle; for that it
-    /// keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
-    /// continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be
-    /// written.
+    /// of the work and of the greatest tension, with their errors, and --accuracy takes the coarsest grid that has them. With a
+    /// hardness the surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command
+    /// continues an interrupted cycle; for that it keeps FILE.state next to the file, which may be deleted at the end. asperity
+    /// run FILE.scene.toml repeats or continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is
+    /// refused or a file cannot be written.
     ///
     /// # Examples
     ///   Approach and withdrawal of a map of 1 by 1, with a picture of the loop:
@@ -65,6 +65,9 @@ keys! {
 
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
+
+/// The nodes of a coarser grid from which on the grid is chosen in much less time than a cycle on the whole map takes.
+const MANY: usize = 1 << 12;
 
 /// Runs the command; whether all rows converged.
 pub fn run(call: &Call<'_>) -> Outcome<bool> {
@@ -99,6 +102,13 @@ impl Fill for Options {
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         table.announce();
+        if table.session.coarser_shape().is_some_and(|(nx, ny)| nx * ny >= MANY) {
+            table
+                .options
+                .manner
+                .printing
+                .say("--accuracy 0.1 would take the coarsest grid on which the work is known to 10 %");
+        }
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
             table.options.manner.printing.say(&format!(
