@@ -143,6 +143,17 @@ fn a_loop_has_the_accuracy_that_is_asked_for() {
 }
 
 #[test]
+fn an_accuracy_takes_the_coarsest_grid_that_has_it() {
+    let jkr: Arc<dyn AdhesionLaw<f64>> = Arc::new(Jkr::new(WORK).unwrap());
+    let found = accurate(Accuracy::new(0.15, Quantity::Work), 192, jkr).unwrap();
+    assert_eq!((found.surface.grid().shape(), found.levels.len()), ((96, 96), 1));
+    let end = follow_on(&found.surface, found.law).unwrap();
+    let limit = LoopLimit::of((96, 96), &end, &found.levels[0].1).work;
+    assert_eq!(limit.relative_error(), found.expected);
+    assert!((limit.value - sphere(1.5).dissipated(0.0)).abs() < limit.error && found.expected < 0.15, "{limit:?}");
+}
+
+#[test]
 fn an_accuracy_of_a_loop_that_cannot_be_had_is_refused() {
     let jkr: Arc<dyn AdhesionLaw<f64>> = Arc::new(Jkr::new(WORK).unwrap());
     let wanted = |target, of| Accuracy::new(target, of);
