@@ -2,15 +2,10 @@
 
 use asperity::contact::ContactArea;
 use asperity::pull_off::FoundPullOff;
-use asperity::{Branch, Grid, Problem, PullOff, Result, Settings, Solution, Solver, Westergaard};
+use asperity::{Branch, Problem, PullOff, Result, Settings, Solution, Solver};
 
 /// The tolerance of solves, far below the error of the grid.
 pub const TOLERANCE: f64 = 1e-5;
-
-/// The periodic half-space of contact modulus one.
-pub fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
-    Westergaard::new(grid, 1.0)
-}
 
 /// A solver to the tolerance of this example.
 pub fn solver() -> Solver {

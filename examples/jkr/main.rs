@@ -1,11 +1,11 @@
-//! How right the law without a range is: spheres, waves, its shape, and the error of its grid.
+//! How right the law without a range is: spheres, waves, and the error of its grid.
 //!
 //! `cargo run --release -p asperity-examples --example jkr -- TABLE`
 //!
 //! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it next to the exact
-//! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995); `shapes`, laws of other shapes; `kinds`, how often
-//! true errors are within the estimates on each kind of scene, next to grids two and four times as fine. `picture` draws
-//! the pull-off over the nodes, with its error.
+//! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995). `kinds` counts how often true errors are within the
+//! estimates on each kind of scene, next to grids two and four times as fine. `picture` draws the pull-off over the
+//! nodes, with its error.
 //!
 //! Lengths, E* and loads are in consistent units; figures are deterministic.
 
@@ -13,7 +13,6 @@ mod case;
 mod kinds;
 mod picture;
 mod scene;
-mod shapes;
 mod sphere;
 mod wave;
 
@@ -28,8 +27,6 @@ enum Table {
     Sphere,
     /// A wave on a line and on a grid, next to Johnson's theory.
     Wave,
-    /// Other shapes of the law.
-    Shapes,
     /// Kinds of scenes: how often the true errors are within the estimates.
     Kinds,
     /// A picture of the pull-off of a rough surface and of a sphere over the nodes.
@@ -65,9 +62,6 @@ fn main() -> Outcome<()> {
     }
     if wants(Table::Wave) {
         wave::table(quick)?;
-    }
-    if wants(Table::Shapes) {
-        shapes::table(quick)?;
     }
     if wants(Table::Picture) {
         std::fs::create_dir_all(&out)?;

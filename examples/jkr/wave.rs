@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use asperity::exact::AdhesiveWavyLine;
-use asperity::{AdhesionLaw, Control, Grid, Jkr, Problem, Result, Surface, Sweep};
+use asperity::{Control, Grid, Jkr, Problem, Result, Surface, Sweep, Westergaard};
 use common::Outcome;
 
-use crate::case::{areas, half_space, head, loading, pull_off, ratios, row, tension};
+use crate::case::{areas, head, loading, pull_off, ratios, row, tension};
 
 /// The amplitude over the wavelength, and Johnson's parameter.
 const STEEPNESS: f64 = 0.01;
@@ -18,7 +18,7 @@ const BRACKET: f64 = 0.001;
 const PRELOAD: f64 = 0.3;
 
 /// A wave of a wavelength on a half-space of contact modulus one, with the work of adhesion of Johnson's parameter.
-pub struct Wave {
+struct Wave {
     wavelength: f64,
     /// Periods along the sides.
     periods: (f64, f64),
@@ -27,7 +27,7 @@ pub struct Wave {
 
 impl Wave {
     /// One period on a line.
-    pub fn line(n: usize) -> Result<Self> {
+    fn line(n: usize) -> Result<Self> {
         Ok(Self { wavelength: 1.0, periods: (1.0, 0.0), grid: Grid::line(n, 1.0)? })
     }
 
@@ -40,7 +40,7 @@ impl Wave {
         STEEPNESS * self.wavelength
     }
 
-    pub fn work_of_adhesion(&self) -> f64 {
+    fn work_of_adhesion(&self) -> f64 {
         (ALPHA * PI * self.amplitude()).powi(2) / (2.0 * self.wavelength)
     }
 
@@ -48,16 +48,16 @@ impl Wave {
         AdhesiveWavyLine::new(self.amplitude(), self.wavelength, 1.0, self.work_of_adhesion())
     }
 
-    fn problem(&self, law: impl AdhesionLaw<f64> + 'static) -> Result<Problem<f64>> {
+    fn problem(&self) -> Result<Problem<f64>> {
         let (kx, ky) = (TAU * self.periods.0, TAU * self.periods.1);
         let surface = Surface::from_fn(self.grid, |x, y| self.amplitude() * (kx * x + ky * y).cos())?;
-        Problem::new(&surface, half_space(self.grid)?, law)
+        Problem::new(&surface, Westergaard::new(self.grid, 1.0)?, Jkr::new(self.work_of_adhesion())?)
     }
 
     /// The areas by energy and less the process zone under the loads, over the exact ones.
     fn areas(&self) -> Outcome<[Vec<f64>; 2]> {
         let exact = self.exact()?;
-        let mut problem = self.problem(Jkr::new(self.work_of_adhesion())?)?;
+        let mut problem = self.problem()?;
         let (mut solver, mut sweep, mut found) = (loading(), Sweep::default(), [Vec::new(), Vec::new()]);
         for pressure in LOADS.map(|load| load * exact.closing_pressure()) {
             let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(pressure))?;
@@ -68,9 +68,9 @@ impl Wave {
     }
 
     /// The pull-off over the exact one.
-    pub fn pull_off(&self, law: impl AdhesionLaw<f64> + 'static) -> Outcome<f64> {
+    fn pull_off(&self) -> Outcome<f64> {
         let exact = self.exact()?;
-        let found = pull_off(&mut self.problem(law)?, BRACKET, Some(PRELOAD * exact.closing_pressure()))?;
+        let found = pull_off(&mut self.problem()?, BRACKET, Some(PRELOAD * exact.closing_pressure()))?;
         Ok(-tension(&found) / exact.pull_off()?.mean_pressure())
     }
 }
@@ -108,7 +108,7 @@ pub fn table(quick: bool) -> Outcome<()> {
     }
     for (name, wave) in &waves {
         let [by_energy, less_zone] = wave.areas()?.map(|ratios| distances(&ratios));
-        let off = wave.pull_off(Jkr::new(wave.work_of_adhesion())?)?;
+        let off = wave.pull_off()?;
         let (nx, ny) = wave.grid.shape();
         let mut cells = vec![(*name).to_owned(), format!("{nx} × {ny}")];
         cells.push(format!("{:.0}", wave.wavelength / wave.grid.largest_spacing()));
