@@ -72,7 +72,9 @@ pub fn read(
     missing: Vec<String>,
     masked: bool,
 ) -> PyResult<(Made<'_>, Vec<String>)> {
-    let reading = Reading { channel, skip_lines, missing, masked };
+    let mut reading = Reading::default();
+    (reading.channel, reading.skip_lines) = (channel, skip_lines);
+    (reading.missing, reading.masked) = (missing, masked);
     let mut map = apart(py, || reading.read(&path))?;
     let unread = std::mem::take(&mut map.unread);
     Ok((Made::of(py, map), unread))

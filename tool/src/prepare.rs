@@ -103,12 +103,9 @@ fn left_out(out: &Path, map: &Topography) -> String {
 
 /// Takes the steps, and prints the warnings.
 fn prepared(options: &Options, scene: &SceneFile, log: &mut Log) -> Outcome<Topography> {
-    let reading = Reading {
-        channel: options.channel.clone(),
-        skip_lines: options.skip_lines.unwrap_or_default(),
-        missing: options.missing_word.clone(),
-        masked: options.masked,
-    };
+    let mut reading = Reading::default();
+    (reading.channel, reading.skip_lines) = (options.channel.clone(), options.skip_lines.unwrap_or_default());
+    (reading.missing, reading.masked) = (options.missing_word.clone(), options.masked);
     let map = reading.read(&options.input)?;
     check_room(map.heights.dim())?;
     let steps = in_options(scene.given.steps(map.heights.dim(), scene.is_si(), map.unit.as_deref()))?;

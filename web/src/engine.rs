@@ -57,7 +57,9 @@ impl Engine {
     /// # Errors
     /// As [`Reading::read_bytes`].
     pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>, masked: bool) -> Outcome<Value> {
-        let read = Reading { channel: channel.clone(), masked, ..Reading::default() }.read_bytes(name, bytes);
+        let mut reading = Reading::default();
+        (reading.channel, reading.masked) = (channel.clone(), masked);
+        let read = reading.read_bytes(name, bytes);
         // what has one map alone has nothing else
         let is_one = read.as_ref().is_ok_and(|map| map.unread.is_empty());
         let channels = if is_one { Vec::new() } else { channels(name, bytes)? };

@@ -13,11 +13,13 @@ use crate::Topography;
 ///
 /// ```
 /// use asperity_maps::io::Reading;
-/// let reading = Reading { skip_lines: 1, missing: vec!["lost".into()], ..Reading::default() };
+/// let mut reading = Reading::default();
+/// (reading.skip_lines, reading.missing) = (1, vec!["lost".into()]);
 /// let map = reading.read_bytes("heights.txt", b"my heights\n1 2 3\n4 lost 6\n")?;
 /// assert_eq!((map.heights.dim(), map.missing()), ((2, 3), 1));
 /// # Ok::<(), asperity::Error>(())
 /// ```
+#[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// The channel, by its number or its title, of a `.gwy` file or of a text with several blocks of numbers.
