@@ -20,9 +20,6 @@ use crate::vector::vectors;
 /// The share of the exact ratio of gaps: the best start has a little more contact.
 const WIDER: f64 = 0.77;
 
-/// A gap above zero that is none, in either precision.
-const LEAST: f64 = f32::MIN_POSITIVE as f64;
-
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
     let slab = surface.grid().slab();
@@ -155,7 +152,8 @@ impl Touching {
             free: wall.is_soft(),
             yields: wall.hardness().is_some(),
             // surfaces stick where they touch
-            least: if law.hints().touches() { LEAST } else { 0.0 },
+            // above zero, and none in either precision
+            least: if law.hints().touches() { f32::MIN_POSITIVE.into() } else { 0.0 },
         }
     }
 

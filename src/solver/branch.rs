@@ -9,14 +9,11 @@ use super::start::{Begin, Start};
 use super::{Method, Settings, Solution, Status};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
+use crate::degrees::FAR;
 use crate::error::Result;
 use crate::names::names;
 use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
-
-/// The distance allowed between solutions of one equilibrium, over the sum of their certified errors: the stiffness of
-/// the elastic body over the stiffness of the equilibrium.
-const SOFT: f64 = 100.0;
 
 /// The branch of equilibria on which a solve with adhesion starts.
 ///
@@ -112,6 +109,8 @@ impl<T: Real> Solution<T> {
         let found = [self, other].iter().all(|solution| solution.report.status == Status::Converged);
         // all processes that share the grid have to ask
         let distance = self.distance(other);
-        found && distance <= SOFT * (a + b)
+        // the stiffness of the elastic body over the stiffness of the equilibrium
+        let softness = FAR * FAR;
+        found && distance <= softness * (a + b)
     }
 }

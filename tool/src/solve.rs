@@ -9,8 +9,10 @@ use std::sync::Arc;
 use asperity::{Solution, Status};
 use asperity_maps::io::OutputFolder;
 use asperity_scene::{
-    Account, Boundary, Kind, Part, Posed, Precision, Solved, Word, choice, gap_to_write, keys, write_fields,
+    Account, Boundary, Kind, Part, Posed, Precision, Request, Session, Solved, Word, choice, gap_to_write, keys,
+    write_fields,
 };
+use ndarray::Array2;
 use serde_json::json;
 
 use self::others::{Named, OTHERS, other_fields};
@@ -118,6 +120,22 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     }
 }
 
+/// Solves behind a bar of progress, and announces the grids of a wanted accuracy.
+fn solve_with_progress<T: Scalar>(
+    session: &mut Session<T>,
+    request: &Request,
+    start: Option<Array2<T>>,
+    printing: &Printing,
+) -> Outcome<Solved<T>> {
+    let tolerance = session.tolerance(request.goal)?;
+    let mut progress = Progress::new("", tolerance, session.grid().nodes(), printing.without_bars());
+    if let Some(goal) = request.goal {
+        let (plan, time) = session.plan(request.control, goal)?;
+        printing.say(&goal.announced(&plan, time));
+    }
+    session.solve(request, start, &mut progress.on_grids())
+}
+
 /// Whether all goals beside the convergence are reached: of an accuracy, of a search and of a leakage.
 fn has_reached(account: &Account) -> bool {
     account.accuracy.as_ref().is_none_or(|reached| reached.reached)
@@ -182,15 +200,7 @@ impl Job<'_> {
         let full = session.full_pressure(&[self.problem.case.load()?])?;
         let asked = self.problem.case.request(full, start.is_some())?;
         say_new(&mut session.warnings);
-        let tolerance = session.tolerance(asked.goal)?;
-        let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
-        if let Some(goal) = asked.goal {
-            let (plan, time) = session.plan(asked.control, goal)?;
-            printing.say(&goal.announced(&plan, time));
-        }
-        let solved = session.solve(&asked, start, &mut progress.on_grids());
-        drop(progress);
-        let mut solved = solved?;
+        let mut solved = solve_with_progress(&mut session, &asked, start, &printing)?;
         say_new(&mut session.warnings);
         let refined = solved.found.refined.take().map(Arc::new);
         if refined.is_some() {
