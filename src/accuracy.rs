@@ -20,6 +20,7 @@ mod bearing;
 mod goal;
 mod loop_grid;
 mod loops;
+mod no_estimate;
 mod pull_off;
 mod refine;
 mod refinement;
@@ -28,7 +29,8 @@ mod zone;
 pub use goal::{Accuracy, AccurateSolution, Plan};
 pub use loop_grid::LoopGrid;
 pub use loops::{Limit, LoopLimit};
-pub use pull_off::{AccuratePullOff, NoEstimate};
+pub use no_estimate::NoEstimate;
+pub use pull_off::AccuratePullOff;
 
 /// The quantity that an accuracy is asked for.
 #[non_exhaustive]

@@ -297,7 +297,7 @@ impl Nested {
             let mut problem = Problem::of(&coarse, half_space, coarse_law)?;
             let loading = default_branch(solver, &problem, control)? == Some(Branch::Loading);
             if !is_resolved && !loading {
-                continue;
+                break;
             }
             let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), touching));
             let mut begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
@@ -327,11 +327,10 @@ impl Nested {
             if levels.len() == 1 && levels[0].area.contact_fraction - yielded > self.closed {
                 break;
             }
-            let (solution, whole) = weaker.map_or((solution, whole), |weaker| (weaker.solution, weaker.whole));
-            let Solution { gap, report, .. } = solution;
+            let (leads, whole) = weaker.map_or((solution, whole), |weaker| (weaker.solution, weaker.whole));
             // a coarse grid that does not carry its load says nothing of a finer one
-            if report.load_error < CARRIED && report.status != Status::Detached {
-                coarser = Some(Deformed::of(&coarse, gap, whole));
+            if leads.report.load_error < CARRIED && leads.report.status != Status::Detached {
+                coarser = Some(Deformed::of(&coarse, leads.gap, whole));
             }
         }
         Ok((levels, coarser))

@@ -20,7 +20,8 @@ const BEYOND: [f64; 2] = [1.35, 1.0];
 const BEYOND_PLACES: f64 = 0.5;
 
 /// The share of a limit that these places take in its error, on a grid of at most this number of nodes along the sides.
-const SCATTER: (f64, f64) = (0.24, 128.0);
+const SCATTER: f64 = 0.24;
+const SCATTERED: f64 = 128.0;
 
 /// The standard errors of the work, in the error of its limit.
 const STANDARD: f64 = 2.0;
@@ -97,10 +98,10 @@ impl LoopLimit {
     /// The limits from the ends of one path on a grid of this shape, and on one of half as many nodes along the sides.
     pub fn of(shape: (usize, usize), fine: &PathEnd, coarse: &PathEnd) -> Self {
         let sides = [shape.0, shape.1].into_iter().filter(|&nodes| nodes > 1);
-        let finer = SCATTER.1 / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
+        let finer = SCATTERED / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
         let is_scattered = fine.touches.max(coarse.touches) > 1;
-        let [work, tension] = BEYOND
-            .map(|one| if is_scattered { (BEYOND_PLACES, SCATTER.0 * finer.sqrt().min(1.0)) } else { (one, 0.0) });
+        let [work, tension] =
+            BEYOND.map(|one| if is_scattered { (BEYOND_PLACES, SCATTER * finer.sqrt().min(1.0)) } else { (one, 0.0) });
         let tensions = [fine.greatest_tension, coarse.greatest_tension];
         Self {
             work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error], work),

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::bearing::LEAST_NODES;
 use super::goal::{NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
-use super::{Accuracy, GridError, adhesion, observed_order};
+use super::{Accuracy, GridError, NoEstimate, adhesion, observed_order};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
 use crate::contact::ContactArea;
@@ -44,7 +44,8 @@ const NEARLY_CLOSED: f64 = 0.4;
 
 /// The adhesion of a rough surface above which two grids tell no error: of 13 scenes with more adhesion the pull-off was
 /// within it in 6. Surfaces of fewer waves along a side peel alike on all grids.
-const STRONG: (f64, f64) = (0.03, 3.5);
+const STRONG: f64 = 0.03;
+const FEW_WAVES: f64 = 3.5;
 
 /// The growth of the pull-off from one grid to the next, above which the two tell no error.
 const GROWTH: f64 = 1.15;
@@ -53,38 +54,6 @@ const GROWTH: f64 = 1.15;
 /// grid of twice as many nodes, where a single grid is known.
 const COARSEST: usize = 32;
 const UNKNOWN: f64 = 0.85;
-
-/// Why the error of a pull-off is not told.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoEstimate {
-    /// The law has a range of its own.
-    Range,
-    /// The search has not come to its end.
-    Unreached,
-    /// So few nodes bear the pull-off, in a contact: it is the pull-off of nodes, and tells no limit.
-    FewNodes {
-        /// The number of nodes.
-        nodes: f64,
-        /// The nodes (Nx, Ny) of a grid that is fine enough.
-        needed: (usize, usize),
-        /// The bytes that a solve takes there.
-        bytes: f64,
-    },
-    /// This share of a periodic cell is in contact: the grid decides where closed surfaces begin to peel.
-    Closed(f64),
-    /// The adhesion of a rough surface is strong, with so much work of adhesion w over E\*h'²λ, of the rms slope h' and the
-    /// shortest wave λ: contacts span several waves, and which of them peel first changes with the grid.
-    Strong(f64),
-    /// Contacts reach the edge of a free boundary's window: each grid has another edge.
-    Edge,
-    /// The shortest wave has so many nodes, and needs twice [`GridError::LEAST_NODES_PER_WAVE`].
-    Waves(f64),
-    /// The grid of half as many nodes along the sides tells no pull-off.
-    OneGrid,
-    /// The pull-off is so many times the pull-off of the coarser grid.
-    Growth(f64),
-}
 
 /// The pull-off on the finest of some grids, and the estimated error of its limit.
 #[non_exhaustive]
@@ -225,17 +194,8 @@ impl Accuracy {
             let told = (level.is_some(), waves, of_many_waves(&surface, &found, waves));
             let error = few.map_or_else(|| error(&found, &levels, hints.of_grid, told), Err);
             let limit = error.ok().map(|_| limits(&levels)[0]);
-            let ended = match error {
-                Ok(error) => error.relative <= self.target,
-                Err(
-                    NoEstimate::Closed(_)
-                    | NoEstimate::Strong(_)
-                    | NoEstimate::Edge
-                    | NoEstimate::Unreached
-                    | NoEstimate::Range,
-                ) => true,
-                Err(_) => found.solution.report.status == Status::Stopped,
-            };
+            let stopped = found.solution.report.status == Status::Stopped;
+            let ended = error.map_or_else(|error| error.stays() || stopped, |error| error.relative <= self.target);
             let reached = !refines || error.is_ok() && ended;
             let ends = reached || ended || !refinable || bytes(1) > self.memory;
             let fine = if ends { None } else { Some(refined(&surface, boundary.is_periodic())?) };
@@ -346,7 +306,7 @@ fn of_many_waves<T: Real>(surface: &Surface, found: &FoundPullOff<T>, nodes_per_
     } else {
         lx.min(ly)
     };
-    let few = side < STRONG.1 * nodes_per_wave * surface.grid().largest_spacing();
+    let few = side < FEW_WAVES * nodes_per_wave * surface.grid().largest_spacing();
     if few || report.approach.is_some() {
         return 0.0;
     }
@@ -369,7 +329,7 @@ fn error<T: Real>(
     if let Some(share) = found.closed_share().filter(|share| *share > NEARLY_CLOSED) {
         return Err(NoEstimate::Closed(share));
     }
-    if adhesion > STRONG.0 {
+    if adhesion > STRONG {
         return Err(NoEstimate::Strong(adhesion));
     }
     if found.solution.report.reaches_edge {

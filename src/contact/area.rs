@@ -31,7 +31,8 @@ const MOST: f64 = 0.5;
 
 /// The gap beyond an edge from which it is a step of the surface: in ranges, since a crack opens by less, and in contact
 /// pressure times spacing over E*, since a body without adhesion opens by less.
-const STEP: (f64, f64) = (4.0, 2.0);
+const STEP: f64 = 4.0;
+const LIFT: f64 = 2.0;
 
 /// The contact area, and its edge; [`ContactStatistics`] says how the area of a solution is corrected.
 ///
@@ -210,9 +211,9 @@ fn reach<T: Real>(outline: &Outline<'_, T>, range: f64) -> (f64, usize) {
             }
             let behind = next(along_x, !ahead).unwrap_or(node);
             let pressure = contact_pressure[node].max(contact_pressure[behind]).widen();
-            let lift = STEP.1 * pressure * if along_x { dx } else { dy } / modulus;
+            let lift = LIFT * pressure * if along_x { dx } else { dy } / modulus;
             edges += 1;
-            steps += usize::from(opening > STEP.0 * range + lift);
+            steps += usize::from(opening > STEP * range + lift);
         }
     }
     (if edges > 0 { steps as f64 / edges as f64 } else { 0.0 }, nodes)

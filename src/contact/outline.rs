@@ -15,7 +15,8 @@ const SOFTNESS: f64 = 2.0 * E / PI;
 /// How far the edge is inside the contour, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, with the
 /// stiffness k over E*/Δ of waves: |q|/2 in a periodic cell; for Love's kernel the inverse of the sum of 4
 /// sin(q'/2)/(q'|q'|) over all q' = q + 2πm.
-const SHIFTS: [f64; 2] = [0.190_009_285_9, 0.174_653_2];
+const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
+const SHIFT_FREE: f64 = 0.174_653_2;
 
 /// How much less an edge along the diagonals lies inside the contour, by plane waves and Hertz contacts.
 const SLANT: f64 = 0.0147;
@@ -81,7 +82,7 @@ impl<T: Real> Outline<'_, T> {
         let (dx, dy) = grid.spacing();
         let step = Rule {
             compliances: [dx, dy].map(|spacing| SOFTNESS * spacing / modulus),
-            shift: SHIFTS[usize::from(!periodic)],
+            shift: if *periodic { SHIFT_PERIODIC } else { SHIFT_FREE },
         };
         // whether the four nodes of a cell are not all of one kind
         let mut mixed = Vec::with_capacity(columns);
