@@ -67,11 +67,10 @@ const CARRIED: f64 = 0.5;
 /// [varies](crate::adhesion::Varying), while they are even. A coarser grid that does not resolve the adhesion
 /// ([`Problem::mu_rho`] above 0.5) would pin the contact on another branch: there [`Jkr`] of the same work of adhesion,
 /// with a range set by the grid, takes the place of a law with a range, if the finest grid resolves that one, or on
-/// loading hardly does (μ_ρ up to 1).
-/// Otherwise, and of a law that varies or without a rigid wall, only grids that resolve the law are used. On loading, a law
-/// that the finest grid does not resolve, and one without a range, leads from grid to grid with a smaller work of adhesion,
-/// so that a finer grid does not keep patches that touch on coarser ones alone; each coarser grid then has the law itself
-/// for its own figures. A law that jumps is
+/// loading hardly does (μ_ρ up to 1). Otherwise, and of a law that varies or without a rigid wall, only grids that
+/// resolve the law are used. On loading, a law that the finest grid does not resolve, and one without a range, leads from
+/// grid to grid with a smaller work of adhesion, so that a finer grid does not keep patches that touch on coarser ones
+/// alone; each coarser grid then has the law itself for its own figures. A law that jumps is
 /// [smoothed](crate::adhesion::Discretisation::Smooth) on coarser grids, and on the finest on its way from there.
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), a
