@@ -18,8 +18,8 @@ use crate::surface::Surface;
 /// contacts have many nodes, and is nearer to one where they have few; the share of the places that touch falls as that.
 const LEFT: f64 = 0.7;
 
-/// The least number of nodes along a side of the grids with which the search begins, where the grid of a surface is finer than
-/// that by more than two halves.
+/// The least number of nodes along the sides of the grids with which the search begins, but for grids of half and of a quarter
+/// of the nodes of the surface.
 const FIRST: usize = 32;
 
 /// The numbers of 8 bytes that a path takes for each node, besides those of a solve: its gaps, and the softest mode.
@@ -68,8 +68,9 @@ impl Accuracy {
     /// nodes of the next along the sides, from 32 nodes on, or a quarter of the nodes of the surface. As long as the error of
     /// the [limit](LoopLimit) that is to be expected exceeds the accuracy, it follows on the next grid: the grid of the
     /// surface, and then grids of twice as many nodes, for which the surface is interpolated as by [`Accuracy::solve`]. It
-    /// ends with the first grid on which the error that is found meets the accuracy. The loop on the grid that is returned is left to be followed: with the end on the last of the levels,
-    /// [`LoopLimit::of`] tells its limit and its error. `operator` is the operator on the grid of the surface.
+    /// ends with the first grid on which the error that is found meets the accuracy. The loop on the grid that is returned
+    /// is left to be followed: with the end on the last of the levels, [`LoopLimit::of`] tells its limit and its error.
+    /// `operator` is the operator on the grid of the surface.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for a law that attracts everywhere, a quantity that is not of a loop, and a grid that has no coarser
@@ -115,7 +116,10 @@ impl Accuracy {
             let (shape, on_coarse) = (coarse.grid().shape(), on_coarse(&law, &surface, &coarse).0);
             let Some(end) = follow(&coarse, &on_coarse)? else { return Ok(None) };
             levels.push((shape, end));
-            if let Some(expected) = self.found(&mut levels) {
+            let expected = self.error_of_loop(&levels);
+            if expected <= self.target {
+                // the limit of this grid is told by the coarser ones
+                levels.pop();
                 let (surface, law, bytes) = (coarse, on_coarse, bytes(shape));
                 return Ok(Some(LoopGrid { surface, law, levels, expected, bytes, refinable, unaffordable: None }));
             }
@@ -139,7 +143,9 @@ impl Accuracy {
             };
             let Some(end) = follow(&surface, &law.0)? else { return Ok(None) };
             levels.push((shape, end));
-            if let Some(expected) = self.found(&mut levels) {
+            let expected = self.error_of_loop(&levels);
+            if expected <= self.target {
+                levels.pop();
                 let (law, bytes, unaffordable) = (law.0, bytes(shape), None);
                 return Ok(Some(LoopGrid { surface, law, levels, expected, bytes, refinable, unaffordable }));
             }
@@ -148,15 +154,14 @@ impl Accuracy {
         }
     }
 
-    /// The relative error on the last of some levels, if it meets the accuracy; the coarser levels tell the limit there, and stay.
-    fn found(&self, levels: &mut Vec<((usize, usize), PathEnd)>) -> Option<f64> {
+    /// The relative error on the last of some levels.
+    fn error_of_loop(&self, levels: &[((usize, usize), PathEnd)]) -> f64 {
         let [of_grid, of_jumps] = self.errors_of_loop(levels);
-        let found = of_grid.hypot(of_jumps);
-        (found <= self.target).then(|| levels.pop()).map(|_| found)
+        of_grid.hypot(of_jumps)
     }
 
     /// The surface on coarser grids, the coarsest first: those of half and of a quarter of the nodes along the sides, as far as
-    /// there are any, and those before with no less than [`FIRST`].
+    /// there are any, and coarser ones with no less than [`FIRST`].
     fn grids_below<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> Result<Vec<Surface>> {
         surface.grid().slab().alone("accuracy")?;
         Error::positive("accuracy", self.target)?;

@@ -66,9 +66,6 @@ keys! {
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
 
-/// The nodes of a coarser grid from which on the grid is chosen in much less time than a cycle on the whole map takes.
-const MANY: usize = 1 << 12;
-
 /// Runs the command; whether all rows converged.
 pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let options = &call.scene.keys::<Options>();
@@ -90,8 +87,13 @@ impl Fill for Options {
         table: &TableOptions<'_>,
         is_started: bool,
     ) -> Outcome<()> {
-        let Some(goal) = in_options(table.scene.given.cycle_goal())? else { return Ok(()) };
         let (printing, tolerance) = (table.manner.printing, session.scene().tolerance());
+        let Some(goal) = in_options(table.scene.given.cycle_goal())? else {
+            if !is_started && session.may_choose_grid() {
+                printing.say("--accuracy 0.1 would take the coarsest grid on which the work is known to 10 %");
+            }
+            return Ok(());
+        };
         printing.say(&format!("accuracy {} of the {}: the cycle on coarser grids first", goal.accuracy, goal.of));
         let mut progress = Progress::new("", tolerance, 0, printing.without_bars());
         let chosen = session.refine(way, goal, is_started, &mut progress.on_grids());
@@ -102,13 +104,6 @@ impl Fill for Options {
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         table.announce();
-        if table.session.coarser_shape().is_some_and(|(nx, ny)| nx * ny >= MANY) {
-            table
-                .options
-                .manner
-                .printing
-                .say("--accuracy 0.1 would take the coarsest grid on which the work is known to 10 %");
-        }
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
             table.options.manner.printing.say(&format!(

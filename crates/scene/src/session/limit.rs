@@ -124,7 +124,16 @@ impl Goal {
     }
 }
 
+/// The nodes of a map from which on a grid is chosen in much less time than a cycle on the whole map takes.
+const MANY: usize = 1 << 14;
+
 impl<T: Scalar> Session<T> {
+    /// Whether an accuracy could take a cycle from the default start to a coarser grid, in much less time.
+    pub fn may_choose_grid(&self) -> bool {
+        let (elastic, whole) = (!self.facts.scene.adhesion.yields(), !self.grid.is_shared());
+        self.law.hints().touches() && elastic && whole && self.grid.nodes() >= MANY
+    }
+
     /// Puts the session on the grid on which a cycle is likely to have an accuracy, by the cycle on coarser grids, from the
     /// default start, unless one is given; returns the grid in words. To be called before [`Session::begin`].
     ///
