@@ -1,13 +1,12 @@
 //! A contact problem, solved once, along loads, or along a path of equilibria.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
-use asperity::Surface;
 use asperity_maps::Topography;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::LENGTH;
 use asperity_scene::theories::Theories;
-use asperity_scene::{AnySession, Boundary, Case, Given, Load, Maps, Objects, Skin, Way, either, worded};
+use asperity_scene::{AnyRows, AnySession, Boundary, Case, Given, Load, Maps, Objects, Skin, Way, either, worded};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -18,18 +17,19 @@ use crate::inputs::{Begin, Map};
 use crate::keywords::{Keywords, known, read};
 use crate::numbers::Field;
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal, refusal_of_session};
+use crate::refusal::{reason, refusal_of_session};
 use crate::running::At;
 use crate::state::{self, Answer, Columns, File, Pace};
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
-    session: Mutex<AnySession>,
+    /// The session, until its one solve takes it along, if no further solves are to follow
+    session: Option<AnySession>,
+    is_kept: bool,
+    /// The rows that were begun last
+    rows: Mutex<Option<AnyRows>>,
     case: Case,
-    /// The surface, if further solves are to follow the first
-    surface: Option<Arc<Surface>>,
-    is_used: bool,
     /// Why theories do not know of it
     #[pyo3(get)]
     beyond_theory: Option<String>,
@@ -47,31 +47,27 @@ impl Problem {
         Ok(At { py, pool: Pool::of(self.case.given().threads())?, observer })
     }
 
-    /// The session.
-    fn session(&mut self) -> &mut AnySession {
-        self.session.get_mut().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// The case with what is given for several parts of a call.
-    fn case(&mut self, parts: &[Given]) -> PyResult<Case> {
+    /// The case and the session of a call, with what is given for several parts of it.
+    fn called(&mut self, parts: &[Given]) -> PyResult<(Case, AnySession)> {
         let case = self.case.with(parts).map_err(refusal_of_session)?;
-        either!(session = self.session() => session.inputs.given = case.quantities().texts());
-        Ok(case)
+        let session = if self.is_kept { self.session.clone() } else { self.session.take() };
+        let mut session =
+            session.ok_or_else(|| PyValueError::new_err("the problem was solved before: make it anew"))?;
+        either!(session = &mut session => session.facts.inputs.given = case.quantities().texts());
+        Ok((case, session))
     }
 
-    /// Poses the problem anew where it has been solved.
-    fn renew(&mut self) -> PyResult<()> {
-        if std::mem::replace(&mut self.is_used, true) && self.surface.is_some() {
-            either!(session = self.session() => session.renew()).map_err(refusal)?;
-        }
-        Ok(())
+    /// The rows that were begun last.
+    fn rows(&mut self) -> PyResult<&mut AnyRows> {
+        let rows = self.rows.get_mut().unwrap_or_else(PoisonError::into_inner);
+        rows.as_mut().ok_or_else(|| PyValueError::new_err("there are no loads to follow: begin first"))
     }
+}
 
-    /// The unit of a reduced pressure, if one is among loads that the problem has.
-    fn full_pressure(&mut self, at: &At<'_>, loads: &[Load]) -> PyResult<f64> {
-        let find = || either!(session = self.session() => session.full_pressure(loads));
-        at.pool.install(at.py, find).map_err(refusal_of_session)
-    }
+/// The unit of a reduced pressure, if one is among loads that the problem has.
+fn full_pressure(session: &AnySession, at: &At<'_>, loads: &[Load]) -> PyResult<f64> {
+    let find = || either!(session = session => session.full_pressure(loads));
+    at.pool.install(at.py, find).map_err(refusal_of_session)
 }
 
 #[pymethods]
@@ -110,10 +106,11 @@ impl Problem {
         }
         let facing = on_maps.inputs.against.clone();
         let beyond_theory = Theories::check(&surface, case.scene()).err().map(|reason| worded(&reason, Skin::Keywords));
-        let kept = is_kept.then_some(surface);
+        drop(surface);
         let make = || AnySession::of(on_maps, &Processes::start()?);
-        let session = Mutex::new(at.pool.install(py, make).map_err(refusal_of_session)?);
-        Ok(Self { session, case, surface: kept, is_used: false, beyond_theory, posed: posed.unbind(), facing })
+        let session = Some(at.pool.install(py, make).map_err(refusal_of_session)?);
+        let (rows, posed) = (Mutex::new(None), posed.unbind());
+        Ok(Self { session, is_kept, rows, case, beyond_theory, posed, facing })
     }
 
     /// The equilibrium at a load.
@@ -124,13 +121,12 @@ impl Problem {
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
     ) -> Answer<'py> {
-        self.renew()?;
         let known = known!(LoadKeys, NestedKeys, FindingsKeys, ConductorKeys, AccuracyKeys);
-        let (case, started) = (self.case(&[read(&known, keywords)?])?, start.is_some());
+        let ((case, session), started) = (self.called(&[read(&known, keywords)?])?, start.is_some());
         let load = case.load().and_then(|load| case.request(1.0, started).map(|_| load)).map_err(refusal_of_session)?;
         let at = self.at(py, observe)?;
-        let asked = case.request(self.full_pressure(&at, &[load])?, started).map_err(refusal_of_session)?;
-        either!(session = self.session() => state::solve(session, &at, &asked, start))
+        let asked = case.request(full_pressure(&session, &at, &[load])?, started).map_err(refusal_of_session)?;
+        either!(session = session => state::solve(session, &at, &asked, start))
     }
 
     /// The pull-off, with the last state that holds.
@@ -141,11 +137,10 @@ impl Problem {
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
     ) -> Answer<'py> {
-        self.renew()?;
-        let case = self.case(&[read(&known!(PullOffKeys), keywords)?])?;
+        let (case, session) = self.called(&[read(&known!(PullOffKeys), keywords)?])?;
         let asked = (case.given().pull_off(), case.given().goal().map_err(reason)?);
         let at = self.at(py, observe)?;
-        either!(session = self.session() => state::pull_off(session, &at, asked, start))
+        either!(session = session => state::pull_off(session, &at, asked, start))
     }
 
     /// Begins a sweep, the law of an interface or a cycle, through several lists of loads, or continues its table in a
@@ -166,7 +161,7 @@ impl Problem {
         };
         let parts = keywords.iter().map(|keywords| read(&known, keywords));
         let parts = parts.collect::<PyResult<Vec<_>>>()?;
-        let case = self.case(&parts)?;
+        let (case, session) = self.called(&parts)?;
         let loads = parts.iter().map(|part| part.loads().map_err(reason)).collect::<PyResult<Vec<_>>>()?.concat();
         let is_interface = way == "interface";
         let after = case.after(is_interface).map_err(refusal_of_session)?;
@@ -176,36 +171,45 @@ impl Problem {
             ));
         }
         let at = self.at(py, observe)?;
-        let (full, count) = (self.full_pressure(&at, &loads)?, loads.len());
+        let (full, count) = (full_pressure(&session, &at, &loads)?, loads.len());
         let goal = case.given().cycle_goal().map_err(reason)?;
         let way = match way {
             "cycle" => Way::cycle(&loads, full, case.given().path()).map_err(reason)?,
             _ => Way::sweep(&loads, full),
         };
-        either!(session = self.session() => {
-            session.seed = table.0;
-            if let Some(goal) = goal {
-                state::refine(session, &at, (&way, goal), start.is_some())?;
+        // the rows before, if there are some, may have the same file
+        self.rows = Mutex::new(None);
+        let (seed, file) = table;
+        let asked = state::Along { way, after, is_interface, goal, seed, file };
+        let (rows, columns) = match session {
+            AnySession::F32(session) => {
+                let (rows, columns) = state::begin(session, &at, asked, start)?;
+                (AnyRows::F32(rows), columns)
             }
-            Ok((state::begin(session, &at, (way, after, is_interface), start, table.1)?, count))
-        })
+            AnySession::F64(session) => {
+                let (rows, columns) = state::begin(session, &at, asked, start)?;
+                (AnyRows::F64(rows), columns)
+            }
+        };
+        self.rows = Mutex::new(Some(rows));
+        Ok((columns, count))
     }
 
     /// The seconds that are left of a cycle that was begun, as far as they are known, and its pace in words.
-    fn pace(&mut self) -> Pace {
-        either!(session = self.session() => state::pace(session))
+    fn pace(&mut self) -> PyResult<Pace> {
+        Ok(either!(rows = self.rows()? => state::pace(rows)))
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.
     fn next<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let at = self.at(py, observe)?;
-        either!(session = self.session() => state::next(session, &at))
+        either!(rows = self.rows()? => state::next(rows, &at))
     }
 
     /// The limits of no range of a cycle at its end, where a coarser grid tells them.
     fn cycle_limit<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let at = self.at(py, observe)?;
-        either!(session = self.session() => state::cycle_limit(session, &at))
+        either!(rows = self.rows()? => state::cycle_limit(rows, &at))
     }
 
     /// The stability of a gap under a load, with a known certified error.
@@ -216,9 +220,9 @@ impl Problem {
         gap: Field<'py>,
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.renew()?;
-        let (load, at) = (read(&known!(LoadKeys), keywords)?.load().map_err(reason)?, self.at(py, None)?);
-        let control = load.control(self.full_pressure(&at, &[load])?);
-        either!(session = self.session() => state::stability(session, &at, control, (gap, relative_error)))
+        let ((_, session), at) = (self.called(&[])?, self.at(py, None)?);
+        let load = read(&known!(LoadKeys), keywords)?.load().map_err(reason)?;
+        let control = load.control(full_pressure(&session, &at, &[load])?);
+        either!(session = session => state::stability(session, &at, control, (gap, relative_error)))
     }
 }

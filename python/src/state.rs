@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use asperity::{Control, PullOff};
 use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::warnings::check_beside;
-use asperity_scene::{After, Goal, Next, Request, Session, Skin, TableFile, Way};
+use asperity_scene::{After, Goal, Next, Request, Rows, Session, Skin, TableFile, Way};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::PyValueError;
@@ -39,7 +39,7 @@ fn start<T: Scalar>(
     given: Option<Begin<'_>>,
     load: Option<Control>,
 ) -> PyResult<Option<Array2<f64>>> {
-    session.inputs.initial_gap = given.as_ref().map(Begin::word).map(str::to_owned);
+    session.facts.inputs.initial_gap = given.as_ref().map(Begin::word).map(str::to_owned);
     match (given, load) {
         (None, _) => Ok(None),
         (Some(Begin::Gap(gap)), _) => session.start(gap.to_array()?).map(Some).map_err(refusal_of_session),
@@ -54,16 +54,15 @@ fn start<T: Scalar>(
 
 /// The equilibrium under a load; of an accuracy with its plan, which the logger `asperity` says.
 pub fn solve<'py, T: Scalar>(
-    session: &mut Session<T>,
+    mut session: Session<T>,
     at: &At<'py>,
     asked: &Request,
     begin: Option<Begin<'py>>,
 ) -> Answer<'py> {
-    let start = start(session, begin, Some(asked.control))?.map(T::field);
+    let start = start(&mut session, begin, Some(asked.control))?.map(T::field);
     let mut planned = None;
     if let Some(goal) = asked.goal {
-        let session = &mut *session;
-        let plan = at.pool.install(at.py, move || session.plan(asked.control, goal)).map_err(refusal)?;
+        let plan = at.pool.install(at.py, || session.plan(asked.control, goal)).map_err(refusal)?;
         let (plan, seconds) = planned.insert(plan);
         log(at, goal.announced(plan, *seconds))?;
     }
@@ -81,7 +80,7 @@ fn log(at: &At<'_>, plan: String) -> PyResult<()> {
 }
 
 /// Puts a session on the grid on which a cycle is likely to have an accuracy, which the logger `asperity` says.
-pub fn refine<T: Scalar>(
+fn refine<T: Scalar>(
     session: &mut Session<T>,
     at: &At<'_>,
     (way, goal): (&Way, Goal),
@@ -95,12 +94,12 @@ pub fn refine<T: Scalar>(
 
 /// The pull-off, with the last state that holds.
 pub fn pull_off<'py, T: Scalar>(
-    session: &mut Session<T>,
+    mut session: Session<T>,
     at: &At<'py>,
     (asked, goal): (PullOff, Option<Goal>),
     begin: Option<Begin<'py>>,
 ) -> Answer<'py> {
-    let start = start(session, begin, None)?.map(T::field);
+    let start = start(&mut session, begin, None)?.map(T::field);
     let (found, raised) =
         at.run(|observe, _| session.pull_off(asked, goal, start, &mut |_, state, _| observe(state)))?;
     let mut of = None;
@@ -116,15 +115,29 @@ pub fn pull_off<'py, T: Scalar>(
     Ok(answer)
 }
 
+/// What is asked for along loads.
+pub struct Along<'py> {
+    pub way: Way,
+    pub after: After,
+    pub is_interface: bool,
+    pub goal: Option<Goal>,
+    pub seed: Option<u64>,
+    pub file: Option<File<'py>>,
+}
+
 /// Begins a way through loads, or continues its table in a file: the names of its columns, and the rows that it has.
 pub fn begin<'py, T: Scalar>(
-    session: &mut Session<T>,
+    mut session: Session<T>,
     at: &At<'py>,
-    (way, after, is_interface): (Way, After, bool),
+    along: Along<'py>,
     begin: Option<Begin<'py>>,
-    file: Option<File<'py>>,
-) -> PyResult<Columns<'py>> {
-    let start = start(session, begin, way.loads().first().copied())?;
+) -> PyResult<(Rows<T>, Columns<'py>)> {
+    let Along { way, after, is_interface, goal, seed, file } = along;
+    session.facts.seed = seed;
+    if let Some(goal) = goal {
+        refine(&mut session, at, (&way, goal), begin.is_some())?;
+    }
+    let start = start(&mut session, begin, way.loads().first().copied())?;
     let owned = |given: Option<Field<'_>>| given.map(|given| given.as_array().to_owned());
     let file = file.map(|(out, fields, force, law_table, works, law_differs)| {
         let (law_table, works) = (owned(law_table), owned(works));
@@ -132,60 +145,62 @@ pub fn begin<'py, T: Scalar>(
     });
     let open = || {
         if let Some(TableFile { out, force, .. }) = &file {
-            check_apart(out, session.inputs.heights.as_deref().map(Path::new))?;
+            check_apart(out, session.facts.inputs.heights.as_deref().map(Path::new))?;
             let force = *force || out.exists();
             check_free(&with_suffix(out, ".scene.toml"), force, "--out")?;
             check_beside(out, force)?;
         }
-        session.begin(way, after, is_interface, start, file)?;
-        Ok((session.columns(), session.read()?))
+        let rows = session.begin(way, after, is_interface, start, file)?;
+        let known = rows.read()?;
+        Ok((rows, known))
     };
-    let (names, rows) = at.pool.install(at.py, open).map_err(refusal_of_session)?;
-    Ok((names, reported(at.py, &rows)?))
+    let (rows, known) = at.pool.install(at.py, open).map_err(refusal_of_session)?;
+    let columns = (rows.columns(), reported(at.py, &known)?);
+    Ok((rows, columns))
 }
 
 /// The next state; none at the end.
-pub fn next<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-    let before = session.rows();
-    let (sought, raised) = at.run(|observe, _| session.seek(observe))?;
+pub fn next<'py, T: Scalar>(rows: &mut Rows<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let before = rows.count();
+    let (sought, raised) = at.run(|observe, _| rows.seek(observe))?;
     let goes_on = raised.is_none();
     // a state that was not reached is looked for again from where the ones before lead
-    let keep = |next: Next<T>| if goes_on { session.keep(next) } else { Ok((next.found, next.row)) };
+    let keep = |next: Next<T>| if goes_on { rows.keep(next) } else { Ok((next.found, next.row)) };
     let found = at.py.detach(|| sought.and_then(|next| next.map(keep).transpose()));
-    if session.rows() == before {
+    if rows.count() == before {
         // for another call that continues it
-        session.release();
+        rows.release();
     }
     let Some(found) = found.transpose() else { return raised.map_or(Ok(None), Err) };
     let mut entries = None;
     let found = answer(at, found.map(|(found, row)| (found, entries.insert(row).account.clone())), raised)?;
     found.set_item("row", entries.map(|row| reported(at.py, &row)).transpose()?)?;
-    found.set_item("pace", pace(session))?;
+    found.set_item("pace", pace(rows))?;
     Ok(Some(found))
 }
 
 /// The limits of no range of a cycle at its end, where a coarser grid tells them.
-pub fn cycle_limit<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let (found, raised) = at.run(|observe, _| session.cycle_limit(observe))?;
+pub fn cycle_limit<'py, T: Scalar>(rows: &mut Rows<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let (found, raised) = at.run(|observe, _| rows.cycle_limit(observe))?;
     raised.map_or(Ok(()), Err)?;
     let Some(limit) = found.map_err(refusal_of_session)? else { return Ok(None) };
     Ok(Some(to_pyobject(at.py, &(limit.shortfall(Skin::Keywords), limit))?))
 }
 
 /// The seconds that are left of a cycle, and its pace in words.
-pub fn pace<T: Scalar>(session: &Session<T>) -> Pace {
-    session.pace().map(|pace| (pace.seconds_left(), pace.describe()))
+pub fn pace<T: Scalar>(rows: &Rows<T>) -> Pace {
+    rows.pace().map(|pace| (pace.seconds_left(), pace.describe()))
 }
 
 /// The stability of a gap under a load, with a known certified error.
 pub fn stability<'py, T: Scalar>(
-    session: &mut Session<T>,
+    session: Session<T>,
     at: &At<'py>,
     control: Control,
     (gap, relative_error): (Field<'py>, f64),
 ) -> PyResult<Bound<'py, PyAny>> {
     let gap = gap.as_array().mapv(T::lit);
-    let test = || session.stability(control, &gap, relative_error);
+    let test = || session.on_one_grid()?.stability(control, &gap, relative_error);
     let (found, mode) = at.pool.install(at.py, test).map_err(refusal)?;
     let entries = to_pyobject(at.py, &found)?;
     entries.set_item("mode", mode.into_pyarray(at.py))?;

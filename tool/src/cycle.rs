@@ -87,7 +87,7 @@ impl Fill for Options {
         table: &TableOptions<'_>,
         is_started: bool,
     ) -> Outcome<()> {
-        let (printing, tolerance) = (table.manner.printing, session.scene().tolerance());
+        let (printing, tolerance) = (table.manner.printing, session.facts.scene.tolerance());
         let Some(goal) = in_options(table.scene.given.cycle_goal())? else {
             if !is_started && session.may_choose_grid() {
                 printing.say("--accuracy 0.1 would take the coarsest grid on which the work is known to 10 %");
@@ -108,7 +108,7 @@ impl Fill for Options {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
             table.options.manner.printing.say(&format!(
                 "{:>4}  {}{event}",
-                table.session.rows(),
+                table.rows.count(),
                 table.brief(&row.account)
             ));
         }
@@ -123,13 +123,13 @@ impl Fill for Options {
 impl Options {
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limits: Option<CycleLimits>) -> Outcome<()> {
-        let (rows, units, free) = (&table.session.read()?, table.session.units(), table.is_free());
+        let (rows, units, free) = (&table.rows.read()?, &table.rows.facts().units, table.is_free());
         let (x, y) = if free { (APPROACH, NORMAL_FORCE) } else { (MEAN_GAP, MEAN_PRESSURE) };
         let limit = limits.as_ref().map(|limits| limits.limit);
         let followed = Followed { rows, units, free, axes: [x, y], limit, limits };
         table.options.manner.printing.report(|| table.report(followed.report()));
         if table.options.manner.printing.for_people() {
-            say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
+            say(&format!("{} rows in {}", table.rows.count(), printing::name(&self.out)));
             followed.lines().iter().for_each(|line| say(line));
         }
         if let Some(text) = unbalanced(followed.greatest_work().0, followed.imbalance(), Skin::Options) {

@@ -79,8 +79,8 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let mut map = Topography::from(surface);
     map.unit = units.length.clone();
     let solved = |name, scene: &SceneFile| solved((name, scene), map.clone(), &printing, processes);
-    let Solved { found: bare, account: without } = solved("without adhesion", &bare)?;
-    let Solved { found: sticky, account: with } = solved("with adhesion", &sticky)?;
+    let Solved { found: bare, account: without, .. } = solved("without adhesion", &bare)?;
+    let Solved { found: sticky, account: with, .. } = solved("with adhesion", &sticky)?;
 
     results.write(results.folder()?, |folder| {
         let map = Map {
@@ -131,8 +131,7 @@ fn solved(
     let posed = case.on(Maps::of(map), count(), processes)?;
     let mut progress = Progress::new(name, case.scene().tolerance(), nodes, printing.without_bars());
     let session = Strictness::default().session::<f64>(posed, processes)?;
-    let mut session = session.with_slopes()?.for_one_solve();
-    let mut solved = session.solve(&case.request(1.0, false)?, None, &mut progress.on_grids())?;
+    let mut solved = session.with_slopes().solve(&case.request(1.0, false)?, None, &mut progress.on_grids())?;
     solved.look()?;
     Ok(solved)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use asperity::Error;
 use asperity_scene::interface::Code;
-use asperity_scene::{Boundary, Format, Kind, keys};
+use asperity_scene::{Boundary, Facts, Format, Kind, keys};
 use serde_json::{Value, json};
 
 use crate::command::Call;
@@ -85,7 +85,8 @@ impl Options {
 
     /// Writes the files of all rows for the codes, and tells their names.
     fn write<T: Scalar>(&self, rows: &[Value], table: &Table<'_, T>) -> Outcome<Vec<String>> {
-        let (adhesive, units) = (table.session.adheres(), table.session.units());
+        let Facts { scene, units, .. } = table.rows.facts();
+        let adhesive = scene.adhesion.adheres();
         let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
         let mut written = Vec::new();
         for code in &self.r#for {
@@ -101,7 +102,7 @@ impl Options {
 
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
-        let (rows, of_rows) = (table.session.rows(), table.session.of_rows());
+        let (rows, of_rows) = (table.rows.count(), table.rows.of_rows());
         // while the table changes, files of its former rows are wrong
         if table.options.manner.force || rows > 0 && of_rows != Some(rows) {
             table.first(|| self.clear())?;

@@ -65,14 +65,14 @@ impl ProblemOptions {
         Ok(Problem { posed: case.on(maps, threads::count(), processes)?, table, works })
     }
 
-    /// The gap from which to start, if a file has it, before the first solve.
+    /// The gap from which to start, if a file has it.
     pub fn start<T: Scalar>(&self, session: &mut Session<T>, processes: &Processes) -> Outcome<Option<Array2<f64>>> {
         let read = |path: &Path| {
             let grid = session.grid();
             session.start(if grid.is_shared() { rows_of(path, grid)? } else { read_field(path)? })
         };
         let start = processes.agree(self.files.initial_gap.as_deref().map(read).transpose());
-        session.inputs.initial_gap = self.files.initial_gap.as_deref().and_then(named);
+        session.facts.inputs.initial_gap = self.files.initial_gap.as_deref().and_then(named);
         start
     }
 

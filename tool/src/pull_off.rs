@@ -83,25 +83,25 @@ fn find<T: Scalar>(
     let given = problem.case.given();
     let (printing, nodes) = (given.keys::<Printing>(), posed.surface.grid().nodes());
     let session = given.keys::<Strictness>().session::<T>(posed, processes)?;
-    let mut session = session.with_slopes()?.for_one_solve();
+    let mut session = session.with_slopes();
     let start = problem.start(&mut session, processes)?;
-    say_new(&mut session.warnings);
+    say_new(&mut session.facts.warnings);
     let (asked, goal) = (given.pull_off(), in_options(given.goal())?);
     let announcement = session.announce_pull_off(goal.is_some())?;
-    let (units, tolerance) = (session.units().clone(), session.tolerance(None)?);
+    let (units, tolerance) = (session.facts.units.clone(), session.tolerance(None)?);
     let mut progress = Progress::new("", tolerance, nodes, printing.without_bars());
     let found =
         session.pull_off(asked, goal, start.map(T::field), &mut progress.on_tensions(&announcement, &units, printing));
     drop(progress);
     let (mut solved, pulled_off) = found?;
-    say_new(&mut session.warnings);
+    say_new(&mut solved.facts.warnings);
     solved.look()?;
-    let Solved { found, account: last } = solved;
+    let Solved { found, account: last, facts } = solved;
     let mut outcome = json!(pulled_off);
     outcome[report::LAST] = json!(last);
-    let report = report::report("pull-off", outcome, &session.inputs);
+    let report = report::report("pull-off", outcome, &facts.inputs);
 
-    printing.say(&aligned(&pulled_off.rows(&last, session.units())));
+    printing.say(&aligned(&pulled_off.rows(&last, &units)));
     if let Some(results) = results {
         let held = &*found.part()?;
         let fields = [&*gap_to_write(held), &held.pressure, &held.contact_pressure];

@@ -122,7 +122,7 @@ pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
 
 /// Solves behind a bar of progress, and announces the grids of a wanted accuracy.
 fn solve_with_progress<T: Scalar>(
-    session: &mut Session<T>,
+    session: Session<T>,
     request: &Request,
     start: Option<Array2<T>>,
     printing: &Printing,
@@ -195,20 +195,20 @@ impl Job<'_> {
         }
         let kept = options.fields.as_ref().map(|_| posed.surface.clone());
         let session = given.keys::<Strictness>().session::<T>(posed, processes)?;
-        let mut session = session.with_slopes()?.for_one_solve();
+        let mut session = session.with_slopes();
         let start = self.problem.start(&mut session, processes)?.map(T::field);
         let full = session.full_pressure(&[self.problem.case.load()?])?;
         let asked = self.problem.case.request(full, start.is_some())?;
-        say_new(&mut session.warnings);
-        let mut solved = solve_with_progress(&mut session, &asked, start, &printing)?;
-        say_new(&mut session.warnings);
+        say_new(&mut session.facts.warnings);
+        let mut solved = solve_with_progress(session, &asked, start, &printing)?;
+        say_new(&mut solved.facts.warnings);
         let refined = solved.found.refined.take().map(Arc::new);
         if refined.is_some() {
             grid = solved.found.solution.grid;
             self.part = self.part.on(grid)?;
         }
         solved.look()?;
-        let Solved { found, account } = solved;
+        let Solved { found, account, facts } = solved;
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
         let mut beside = other_fields(&found, &self.problem.case.scene().elastic, surface.as_deref())?;
@@ -225,7 +225,7 @@ impl Job<'_> {
             let mut beyond = None;
             processes.first(|| {
                 let Some(folder) = folder else { return Ok(()) };
-                let write = |folder: &_| self.write(folder, session.units(), whole.as_deref(), &beside, &account);
+                let write = |folder: &_| self.write(folder, &facts.units, whole.as_deref(), &beside, &account);
                 beyond = results.write(folder, write)?;
                 Ok(())
             })?;
@@ -233,7 +233,7 @@ impl Job<'_> {
             told.extend(beyond.map(|load| format!("beyond the colours of the pressure: {load}")));
         }
 
-        printing.say(&table(&[], &[&account], session.units()));
+        printing.say(&table(&[], &[&account], &facts.units));
         told.iter().for_each(|line| printing.say(line));
         printing.report(|| json!(account));
         warn("", &account);

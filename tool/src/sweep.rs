@@ -71,7 +71,7 @@ impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve()?;
         table.first(|| {
-            PlotOptions::of(table.options.scene).draw(&rows, table.session.units(), table.theories.as_ref())
+            PlotOptions::of(table.options.scene).draw(&rows, &table.rows.facts().units, table.theories.as_ref())
         })?;
         table.options.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {

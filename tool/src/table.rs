@@ -6,8 +6,8 @@ use std::path::Path;
 use asperity::{Control, Error, Surface};
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    Account, After, Boundary, CycleLimits, Format, Given, Kind, Load, Precision, Row, Scene, Session, Skin, TableFile,
-    Way, keys, shortfalls,
+    Account, After, Boundary, CycleLimits, Format, Given, Kind, Load, Precision, Row, Rows, Scene, Session, Skin,
+    TableFile, Way, keys, shortfalls,
 };
 use serde_json::{Map, Value, json};
 
@@ -75,8 +75,8 @@ pub fn format_of(out: &Path, or: &str) -> Outcome<Format> {
 }
 
 /// The number of rows that there will be, if it is known, after a word.
-fn of_rows<T: Scalar>(session: &Session<T>, word: &str) -> String {
-    session.of_rows().map_or(String::new(), |rows| format!("{word}{rows}"))
+fn of_rows<T: Scalar>(rows: &Rows<T>, word: &str) -> String {
+    rows.of_rows().map_or(String::new(), |rows| format!("{word}{rows}"))
 }
 
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
@@ -100,10 +100,10 @@ pub trait Fill {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool>;
 }
 
-/// A table on disk, new or continued, with the session that fills it.
+/// A table on disk, new or continued, with its rows.
 pub struct Table<'a, T: Scalar> {
     pub options: TableOptions<'a>,
-    pub session: Session<T>,
+    pub rows: Rows<T>,
     pub theories: Option<Theories>,
     /// The kind of the loads
     control: Control,
@@ -154,17 +154,17 @@ impl<'a> TableOptions<'a> {
         })?;
         let (path, format, fields) = (out.to_owned(), Some(self.format), self.fields.map(Path::to_owned));
         let file = TableFile { out: path, format, fields, force, law_table, works, ..TableFile::default() };
-        session.begin(way, after, self.interface, start, Some(file))?;
-        let count = session.rows();
-        say_new(&mut session.warnings);
+        let mut rows = session.begin(way, after, self.interface, start, Some(file))?;
+        let count = rows.count();
+        say_new(rows.warnings());
         processes.first(|| {
             scene_file.map_or(Ok(()), OutputFile::commit)?;
-            session.warnings.keep_beside(out, count > 0)
+            rows.warnings().keep_beside(out, count > 0)
         })?;
         if count > 0 {
-            printing.say(&format!("{} has {count}{} rows already", name(out), of_rows(&session, " of ")));
+            printing.say(&format!("{} has {count}{} rows already", name(out), of_rows(&rows, " of ")));
         }
-        let table = Table { options: self, session, theories, control, nodes: grid.nodes() };
+        let table = Table { options: self, rows, theories, control, nodes: grid.nodes() };
         table.stands();
         Ok(table)
     }
@@ -175,7 +175,7 @@ impl<T: Scalar> Table<'_, T> {
     fn stands(&self) {
         let TableOptions { out, manner, .. } = &self.options;
         let command = if manner.force { "the same command without --force" } else { "the same command" };
-        let (rows, of, out) = (self.session.rows(), of_rows(&self.session, " of "), out.display());
+        let (rows, of, out) = (self.rows.count(), of_rows(&self.rows, " of "), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} continues from there"));
     }
 
@@ -196,7 +196,7 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Says what is asked of a cycle and what that is likely to take, before its first row.
     pub fn announce(&self) {
-        let asked = self.session.pace().and_then(|pace| pace.forecast());
+        let asked = self.rows.pace().and_then(|pace| pace.forecast());
         asked.iter().for_each(|asked| self.options.manner.printing.say(asked));
     }
 
@@ -204,19 +204,19 @@ impl<T: Scalar> Table<'_, T> {
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
         let TableOptions { problem, manner, .. } = &self.options;
-        if self.session.of_rows() == Some(self.session.rows()) {
+        if self.rows.of_rows() == Some(self.rows.count()) {
             return Ok(None);
         }
-        let name = format!("{}{}", self.session.rows() + 1, of_rows(&self.session, "/"));
+        let name = format!("{}{}", self.rows.count() + 1, of_rows(&self.rows, "/"));
         let tolerance = problem.case.scene().tolerance();
         let mut progress = Progress::new(&name, tolerance, self.nodes, manner.printing.without_bars());
-        progress.follow(self.session.pace().copied());
-        let found = self.session.next(&mut |state| {
+        progress.follow(self.rows.pace().copied());
+        let found = self.rows.next(&mut |state| {
             progress.update(state);
             ControlFlow::Continue(())
         });
         drop(progress);
-        say_new(&mut self.session.warnings);
+        say_new(self.rows.warnings());
         let Some((_, row)) = found? else { return Ok(None) };
         self.stands();
         Ok(Some(row))
@@ -226,14 +226,14 @@ impl<T: Scalar> Table<'_, T> {
     /// it is ahead.
     pub fn limit(&mut self) -> Outcome<Option<CycleLimits>> {
         let TableOptions { problem, manner, .. } = &self.options;
-        let ahead = self.session.coarser_shape();
+        let ahead = self.rows.coarser_shape();
         if let Some((nx, ny)) = ahead {
             manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
         }
         let (tolerance, nodes) = (problem.case.scene().tolerance(), ahead.map_or(0, |(nx, ny)| nx * ny));
         let is_quiet = manner.printing.without_bars() || ahead.is_none();
         let mut progress = Progress::new("coarser", tolerance, nodes, is_quiet);
-        self.session.cycle_limit(&mut |state| {
+        self.rows.cycle_limit(&mut |state| {
             progress.update(state);
             ControlFlow::Continue(())
         })
@@ -242,22 +242,22 @@ impl<T: Scalar> Table<'_, T> {
     /// Solves all rows that are left, says each in a line, and returns the rows of the file.
     pub fn solve(&mut self) -> Outcome<Vec<Value>> {
         let (out, printing) = (self.options.out, self.options.manner.printing);
-        let count = self.session.of_rows().unwrap_or_default();
+        let count = self.rows.of_rows().unwrap_or_default();
         let width = count.to_string().len();
         while let Some(row) = self.extend()? {
-            let (rows, account) = (self.session.rows(), &row.account);
+            let (rows, account) = (self.rows.count(), &row.account);
             printing.say(&format!("{rows:>width$}/{count}  {}", self.brief(account)));
             // rows that have not converged are counted at the end
             let short = shortfalls(account, Skin::Options).into_iter().filter(|(what, _)| *what != "convergence");
             short.for_each(|(_, text)| complain("warning", &format!("row {rows}: {text}")));
         }
         printing.say(&format!("{count} rows in {}", name(out)));
-        self.session.read()
+        self.rows.read()
     }
 
     /// The row for people.
     pub fn brief(&self, account: &Account) -> String {
-        let units = self.session.units();
+        let units = &self.rows.facts().units;
         let load = match account.approach {
             Some(approach) => {
                 let (force, approach) = (units.number(account.normal_force, FORCE), units.number(approach, LENGTH));
@@ -277,19 +277,19 @@ impl<T: Scalar> Table<'_, T> {
         let (control, TableOptions { out, problem, .. }) = (self.control, &self.options);
         let mut outcome = Map::from_iter([
             ("control".to_owned(), control.name().into()),
-            ("rows".to_owned(), self.session.rows().into()),
-            ("unconverged".to_owned(), self.session.unconverged().into()),
+            ("rows".to_owned(), self.rows.count().into()),
+            ("unconverged".to_owned(), self.rows.unconverged().into()),
             ("out".to_owned(), out.to_string_lossy().into()),
             ("spring_stiffness".to_owned(), problem.case.given().spring_stiffness().into()),
         ]);
         outcome.extend(found.as_object().cloned().unwrap_or_default());
-        outcome.insert("warnings".to_owned(), json!(self.session.warnings.all()));
-        report::report(self.session.command(), outcome.into(), &self.session.inputs)
+        outcome.insert("warnings".to_owned(), json!(self.rows.facts().warnings.all()));
+        report::report(self.rows.command(), outcome.into(), &self.rows.facts().inputs)
     }
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
     pub fn converged(&self, remedy: &str) -> bool {
-        let (count, rows) = (self.session.unconverged(), self.session.rows());
+        let (count, rows) = (self.rows.unconverged(), self.rows.count());
         if count > 0 {
             let precise = match self.options.problem.case.scene().precision {
                 Precision::F32 => "use --precision f64, ",

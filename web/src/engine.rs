@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use crate::given::{read, reason};
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, of_problem};
-use crate::state::{extremes, histogram};
+use crate::state::{NOT_BEGUN, extremes, histogram};
 
 /// A map, the surface that is made of it, and the solves on that.
 #[derive(Default)]
@@ -242,7 +242,7 @@ impl Engine {
     /// # Errors
     /// Errors of the solvers.
     pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
-        self.problem.as_mut().ok_or("there are no loads to follow: begin first")?.next(observe)
+        self.problem.as_mut().ok_or(NOT_BEGUN)?.next(observe)
     }
 
     /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.

@@ -11,12 +11,16 @@ use asperity_plot::{Distribution, LoadScale};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, After, Case, Found, Inputs, Load, Part, Scalar, Session, Skin, Way, csv, gap_to_write, rows, shortfalls,
+    Account, After, Case, Found, Inputs, Load, Part, Rows, Scalar, Session, Skin, Way, csv, gap_to_write, rows,
+    shortfalls,
 };
 use ndarray::Array2;
 use serde_json::{Map as Object, Value, json};
 
 use crate::lines::START;
+
+/// The refusal of a state before there is a way.
+pub const NOT_BEGUN: &str = "there are no loads to follow: begin first";
 
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
 pub type Observe<'a> = &'a mut (dyn FnMut(usize, &Iteration, f64) + Send);
@@ -29,6 +33,8 @@ pub struct State<T: Scalar> {
     session: Session<T>,
     surface: Arc<Surface>,
     part: Part,
+    /// The states along loads, once they are followed.
+    rows: Option<Rows<T>>,
     last: Option<Last<T>>,
     /// A gap from which to start that is of another problem.
     before: Option<Array2<T>>,
@@ -48,7 +54,7 @@ impl<T: Scalar> State<T> {
     /// The session on a surface, of which a part is shown; solves continue from a gap of `before`.
     pub fn new(session: Session<T>, surface: Arc<Surface>, part: Part, before: Option<Array2<f64>>) -> Self {
         let before = before.filter(|gap| gap.dim() == surface.grid().shape()).map(T::field);
-        Self { session, surface, part, last: None, before, table: Vec::new() }
+        Self { session, surface, part, rows: None, last: None, before, table: Vec::new() }
     }
 
     /// The gap of the last solution, or of another problem.
@@ -103,12 +109,13 @@ impl<T: Scalar> State<T> {
         let (account, part) = (&last.account, last.found.part()?);
         let of = |field: &Array2<T>| extremes(field.iter().map(|value| value.widen()));
         let gaps = bulk_range(part.gap.iter().map(|value| value.widen()).filter(|gap| *gap > 0.0)).unwrap_or_default();
-        let pressure = if self.session.scene().adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
+        let pressure =
+            if self.session.facts.scene.adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
         let [tension, compression] = [-1.0, 1.0].map(|sign| {
             let values: Vec<f64> = pressure.iter().map(|value| sign * value.widen()).collect();
             LoadScale::of(&values, None).end
         });
-        let rows = rows(&[account], self.session.units(), Skin::Keywords);
+        let rows = rows(&[account], &self.session.facts.units, Skin::Keywords);
         let rows: Vec<_> = rows.into_iter().map(|(name, texts)| (name, texts.concat())).collect();
         let ends = [
             ("gap", Some(of(&part.gap))),
@@ -125,8 +132,8 @@ impl<T: Scalar> State<T> {
             "shortfalls": told,
             "shape": part.grid.shape(),
             "lengths": part.grid.lengths(),
-            "unit": self.session.units().length,
-            "pressure_unit": self.session.units().pressure,
+            "unit": self.session.facts.units.length,
+            "pressure_unit": self.session.facts.units.pressure,
             "started": if started { "last" } else { "default" },
             "extremes": ends,
             "limits": { "pressure": [-tension, compression], "gap": gaps },
@@ -142,13 +149,12 @@ impl<T: Scalar> State<T> {
         let asked = &case.request(full, started)?;
         let adheres = case.scene().adhesion.adheres();
         let start = self.last.take().map(|last| last.found.solution.gap).or(self.before.take()).filter(|_| started);
-        if !started {
-            self.session.renew()?;
-        }
-        let Inputs { given, initial_gap, .. } = &mut self.session.inputs;
+        self.rows = None;
+        let mut session = self.session.clone();
+        let Inputs { given, initial_gap, .. } = &mut session.facts.inputs;
         (*given, *initial_gap) = (case.quantities().texts(), started.then(|| START.to_owned()));
         let kept = start.clone().filter(|_| adheres);
-        let mut solved = self.session.solve(asked, start, &mut |grid, state, tolerance| {
+        let mut solved = session.solve(asked, start, &mut |grid, state, tolerance| {
             observe(grid.nodes(), state, tolerance);
             ControlFlow::Continue(())
         })?;
@@ -161,28 +167,29 @@ impl<T: Scalar> State<T> {
 
     /// Begins a way through loads.
     pub fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
-        let control = way.control(self.session.scene());
-        self.session.renew()?;
-        (self.session.inputs.given, self.session.inputs.initial_gap) = (quantities, None);
-        self.session.begin(way, After::default(), false, None, None)?;
-        let columns = self.session.columns();
-        let names = self.session.units().columns(&columns, control.name(), self.surface.grid().is_line());
+        let mut session = self.session.clone();
+        let control = way.control(&session.facts.scene);
+        session.facts.inputs.given = quantities;
+        let rows = self.rows.insert(session.begin(way, After::default(), false, None, None)?);
+        let columns = rows.columns();
+        let names = self.session.facts.units.columns(&columns, control.name(), self.surface.grid().is_line());
         self.table = vec![csv::header(&names)];
-        Ok(json!({ "columns": columns, "names": names, "warnings": self.session.warnings.of_input() }))
+        Ok(json!({ "columns": columns, "names": names, "warnings": rows.facts().warnings.of_input() }))
     }
 
     /// The next state; none at the end.
     pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
-        let (nodes, tolerance) = (self.surface.grid().nodes(), self.session.scene().tolerance());
-        let found = self.session.next(&mut |state| {
+        let (nodes, tolerance) = (self.surface.grid().nodes(), self.session.facts.scene.tolerance());
+        let rows = self.rows.as_mut().ok_or(NOT_BEGUN)?;
+        let found = rows.next(&mut |state| {
             observe(nodes, state, tolerance);
             ControlFlow::Continue(())
         })?;
         let Some((found, row)) = found else { return Ok(None) };
-        let cells = row.cells(&self.session.columns());
+        let cells = row.cells(&rows.columns());
         self.table.push(csv::line(&cells));
         let told: Vec<_> = shortfalls(&row.account, Skin::Keywords).into_iter().map(|(_, text)| text).collect();
-        let pace = self.session.pace();
+        let pace = rows.pace();
         let answer = json!({
             "row": cells,
             "warnings": row.account.warnings,
@@ -196,9 +203,10 @@ impl<T: Scalar> State<T> {
 
     /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.
     pub fn cycle_limit(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
-        let nodes = self.session.coarser_shape().map_or(0, |(nx, ny)| nx * ny);
-        let tolerance = self.session.scene().tolerance();
-        let found = self.session.cycle_limit(&mut |state| {
+        let Some(rows) = &mut self.rows else { return Ok(None) };
+        let nodes = rows.coarser_shape().map_or(0, |(nx, ny)| nx * ny);
+        let tolerance = self.session.facts.scene.tolerance();
+        let found = rows.cycle_limit(&mut |state| {
             observe(nodes, state, tolerance);
             ControlFlow::Continue(())
         })?;
@@ -232,7 +240,7 @@ impl<T: Scalar> State<T> {
     /// The histograms of gap and contact pressure.
     pub fn histograms(&self, bins: usize) -> Outcome<Value> {
         let part = self.last()?.found.part()?;
-        let Units { length, pressure, .. } = self.session.units();
+        let Units { length, pressure, .. } = &self.session.facts.units;
         let positive = |field: &Array2<T>, unit: &Option<String>| {
             histogram(field.iter().map(|value| value.widen()).filter(|value| *value > 0.0), bins, unit.as_deref())
         };

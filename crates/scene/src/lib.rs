@@ -21,7 +21,7 @@ pub use hash::Hash;
 pub use key::*;
 pub use session::limit::{CycleLevel, CycleLimit, CycleLimits};
 pub use session::way::Way;
-pub use session::{AnySession, Next, Observe, Session, Solved, TableFile};
+pub use session::{AnyRows, AnySession, Facts, Next, Observe, OneGrid, Rows, Session, Solved, TableFile};
 pub use session::{fall, pace};
 pub use table::Format;
 pub use table::fields::{gap_to_write, write_fields};
@@ -39,6 +39,7 @@ macro_rules! key {
 }
 
 /// Something in either precision.
+#[derive(Clone)]
 pub enum Either<S, D> {
     /// In `f32`.
     F32(S),
@@ -46,7 +47,7 @@ pub enum Either<S, D> {
     F64(D),
 }
 
-/// Does the same with something in either precision: `either!(session = problem => session.rows())`.
+/// Does the same with something in either precision: `either!(session = problem => session.grid())`.
 #[macro_export]
 macro_rules! either {
     ($name:ident = $of:expr => $work:expr) => {

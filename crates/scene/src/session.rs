@@ -2,24 +2,26 @@
 
 pub(crate) mod course;
 pub mod fall;
-mod filled;
 pub(crate) mod limit;
+mod one_grid;
 pub mod pace;
 mod posed;
+mod rows;
 mod solves;
 pub(crate) mod way;
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Weak};
+use std::sync::Arc;
 
 use asperity::contact::{ContactStatistics, Region};
 use asperity::solver::Iteration;
-use asperity::{AdhesionLaw, Grid, PullOff, Real, Result, Solver, Status, Surface};
+use asperity::{AdhesionLaw, Control, Grid, PullOff, Real, Result, Solver, Status, Surface};
 use asperity_maps::warning::WarningCode;
 use ndarray::Array2;
 use serde_json::json;
 
-pub use self::filled::{Next, TableFile};
+pub use self::one_grid::OneGrid;
+pub use self::rows::{Next, Rows, TableFile};
 use crate::Either;
 use crate::account::row::Kind;
 use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
@@ -27,49 +29,43 @@ use crate::case::{Part, Posed};
 use crate::key::{After, Constraint, Goal, Notice, Precision, Request, Scalar, Scene, Skin, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
-use crate::session::course::Course;
-use crate::session::limit::Coarser;
-use crate::session::posed::Body;
+use crate::session::limit::Chosen;
+use crate::table::Format;
 use crate::table::warnings::Warnings;
-use crate::table::{Format, Table};
 
 /// The observer of a solve: it sees each iteration with the grid and the tolerance of the solve on it, and may end the
 /// solve.
 pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
 
-/// The session of a contact problem in one precision: the problem with its solver, the inputs of its reports, its
-/// warnings, and the table that is filled.
+/// The session of a contact problem in one precision, before it is solved: a solve, a pull-off and the rows of a table take
+/// it along, and heights that nothing else holds leave as soon as they can.
+#[derive(Clone)]
 pub struct Session<T: Scalar> {
+    /// The facts that its accounts have in common.
+    pub facts: Facts,
+    surface: Arc<Surface>,
+    law: Arc<dyn AdhesionLaw<T>>,
+    /// The grid that was chosen for the accuracy of a cycle
+    chosen: Option<Box<Chosen>>,
+}
+
+/// The facts that all accounts of a session have in common.
+#[derive(Clone)]
+pub struct Facts {
     /// The inputs of its reports.
     pub inputs: Inputs,
     /// The seed of a random surface.
     pub seed: Option<u64>,
     /// The warnings so far.
     pub warnings: Warnings,
-    facts: Facts,
-    surface: Weak<Surface>,
-    body: Body<T>,
-    law: Arc<dyn AdhesionLaw<T>>,
-    solver: Solver<Constraint<T>>,
-    /// The grid of the surface.
-    grid: Grid,
-    /// Whether no solve follows the next one.
-    last: bool,
-    course: Option<Course<T>>,
-    table: Option<Table>,
-    /// What tells the limits of a cycle
-    coarser: Option<Coarser<T>>,
-}
-
-/// What all solves of a session have in common besides the problem.
-#[derive(Clone)]
-struct Facts {
-    scene: Scene,
+    /// The scene.
+    pub scene: Scene,
+    /// The units of its numbers, as far as they are known.
+    pub units: Units,
     part: Part,
-    units: Units,
     /// The node with the largest work of adhesion, where that varies.
     strongest: Option<(usize, usize)>,
-    hardness: Option<Array2<f64>>,
+    hardness: Option<Arc<Array2<f64>>>,
     scars_removed: Option<f64>,
     skin: Skin,
     processes: Processes,
@@ -81,10 +77,15 @@ pub struct Solved<T: Real> {
     pub found: Found<T>,
     /// The account, which a look completes.
     pub account: Account,
+    /// The facts of its session.
+    pub facts: Facts,
 }
 
 /// A session in either precision.
 pub type AnySession = Either<Session<f32>, Session<f64>>;
+
+/// Rows in either precision.
+pub type AnyRows = Either<Rows<f32>, Rows<f64>>;
 
 impl AnySession {
     /// The session of a case on its maps in the precision of its scene, with the slopes of the surface; see
@@ -94,8 +95,8 @@ impl AnySession {
     /// Those of [`Session::new`].
     pub fn of(posed: Posed, processes: &Processes) -> Outcome<Self> {
         Ok(match posed.scene.precision {
-            Precision::F32 => Self::F32(Session::new(posed, false, processes)?.with_slopes()?),
-            Precision::F64 => Self::F64(Session::new(posed, false, processes)?.with_slopes()?),
+            Precision::F32 => Self::F32(Session::new(posed, false, processes)?.with_slopes()),
+            Precision::F64 => Self::F64(Session::new(posed, false, processes)?.with_slopes()),
         })
     }
 }
@@ -107,6 +108,28 @@ impl<T: Real> Solved<T> {
     /// As [`Sight::look`](crate::Sight::look).
     pub fn look(&mut self) -> Result<ContactStatistics> {
         self.found.sight.look_at(&mut self.account, &self.found.solution)
+    }
+
+    /// The text of a table of one row, with what is asked for after it, or of the pull-off that ends with it. Looks at the
+    /// fields.
+    ///
+    /// # Errors
+    /// As [`Solved::look`].
+    pub fn table(&mut self, after: &After, pulled_off: Option<&PulledOff>, format: Format) -> Result<String> {
+        let sizes = self.look()?.cluster_sizes;
+        let Self { found, account, facts } = self;
+        let kind = match pulled_off {
+            Some(_) => Kind::PullOff,
+            None if found.search.is_some() => Kind::Search,
+            None => Kind::Sweep,
+        };
+        let names = kind.columns(after, &facts.scene.adhesion);
+        let mut cells = Row::of(found, account, &sizes, None, facts.seed).cells(&names);
+        for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
+            cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
+        }
+        let header = facts.units.columns(&names, account.control, found.solution.grid.is_line());
+        Ok(format.header(&header) + &format.line(&cells) + "\n")
     }
 }
 
@@ -130,56 +153,25 @@ impl<T: Scalar> Session<T> {
             false => Warnings::new(Vec::new(), is_strict),
         };
         let warnings = processes.agree(warn())?;
-        let constraint = scene.adhesion.constraint(hardness.as_ref().map(|hardness| hardness.view()))?;
-        let solver = Solver { settings: scene.settings(), constraint };
-        let (processes, scars_removed) = (processes.clone(), posed.scars_removed);
-        let facts = Facts { scene, part, units, strongest, hardness, scars_removed, skin, processes };
-        let (surface, body) = (Arc::downgrade(&surface), Body::Surface(surface));
-        let (last, course, table, coarser) = (false, None, None, None);
-        Ok(Self { inputs, seed, warnings, facts, surface, body, law, solver, grid, last, course, table, coarser })
+        let (processes, scars_removed, hardness) = (processes.clone(), posed.scars_removed, hardness.map(Arc::new));
+        let facts =
+            Facts { inputs, seed, warnings, scene, units, part, strongest, hardness, scars_removed, skin, processes };
+        // a wall and a hardness are refused before anything is solved
+        facts.solver::<T>()?;
+        Ok(Self { facts, surface, law, chosen: None })
     }
 
     /// The session with the slopes of its surface among the inputs, where a process has all of it.
-    ///
-    /// # Errors
-    /// [`Error::Unsuited`](asperity::Error::Unsuited) after the first solve.
-    pub fn with_slopes(mut self) -> Result<Self> {
-        if is_whole(&self.grid) {
-            self.inputs.slopes = Slopes::on(&*self.surface()?, self.facts.scene.elastic.boundary);
+    pub fn with_slopes(mut self) -> Self {
+        if is_whole(self.grid()) {
+            self.facts.inputs.slopes = Slopes::on(&self.surface, self.facts.scene.elastic.boundary);
         }
-        Ok(self)
-    }
-
-    /// The session of one solve: heights that nothing else holds leave before the solve on the finest grid, and the
-    /// problem after it.
-    pub fn for_one_solve(self) -> Self {
-        Self { last: true, ..self }
-    }
-
-    /// Poses the problem anew on its surface, which something else holds, as one that has solved nothing yet.
-    ///
-    /// # Errors
-    /// [`Error::Unsuited`](asperity::Error::Unsuited) where nothing does.
-    pub fn renew(&mut self) -> Result<()> {
-        let hardness = self.facts.hardness.as_ref().map(|hardness| hardness.view());
-        self.solver.constraint = self.facts.scene.adhesion.constraint(hardness)?;
-        (self.body, self.course, self.table, self.coarser) = (Body::Surface(self.surface()?), None, None, None);
-        Ok(())
+        self
     }
 
     /// The grid of the surface.
     pub fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    /// The scene.
-    pub fn scene(&self) -> &Scene {
-        &self.facts.scene
-    }
-
-    /// The units of its numbers, as far as they are known.
-    pub fn units(&self) -> &Units {
-        &self.facts.units
+        self.surface.grid()
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it, and its
@@ -187,10 +179,10 @@ impl<T: Scalar> Session<T> {
     ///
     /// # Errors
     /// Errors of the solvers of the library, a solve that ran away, and warnings, if they are errors.
-    pub fn solve(&mut self, asked: &Request, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
-        let asked = Request { control: self.on_whole(asked.control), ..*asked };
-        let found = self.find(&asked, start, observe)?;
-        self.solved("solve", found)
+    pub fn solve(self, asked: &Request, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
+        let asked = Request { control: self.facts.on_whole(asked.control), ..*asked };
+        let (found, facts) = self.find(&asked, start, observe)?;
+        facts.solved("solve", found)
     }
 
     /// The pull-off, to an accuracy if one is asked for, from a gap or the default start, with the last state that
@@ -199,63 +191,50 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// As [`Session::solve`].
     pub fn pull_off(
-        &mut self,
+        self,
         asked: PullOff,
         goal: Option<Goal>,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
     ) -> Outcome<(Solved<T>, PulledOff)> {
-        let (found, pulled_off) = self.find_pull_off(asked, goal, start, observe)?;
-        Ok((self.solved("pull-off", found)?, pulled_off))
+        let (found, pulled_off, facts) = self.find_pull_off(asked, goal, start, observe)?;
+        Ok((facts.solved("pull-off", found)?, pulled_off))
+    }
+}
+
+impl Facts {
+    /// A solver of the scene that has solved nothing yet.
+    fn solver<T: Real>(&self) -> Result<Solver<Constraint<T>>> {
+        let constraint = self.scene.adhesion.constraint(self.hardness.as_ref().map(|hardness| hardness.view()))?;
+        Ok(Solver { settings: self.scene.settings(), constraint })
     }
 
-    /// The text of a table of one row, of a solution and of what is asked for after it, or of the pull-off that ends
-    /// with it. Looks at the fields.
-    ///
-    /// # Errors
-    /// As [`Solved::look`].
-    pub fn table_of(
-        &self,
-        solved: &mut Solved<T>,
-        after: &After,
-        pulled_off: Option<&PulledOff>,
-        format: Format,
-    ) -> Result<String> {
-        let sizes = solved.look()?.cluster_sizes;
-        let Solved { found, account } = solved;
-        let kind = match pulled_off {
-            Some(_) => Kind::PullOff,
-            None if found.search.is_some() => Kind::Search,
-            None => Kind::Sweep,
-        };
-        let names = kind.columns(after, &self.facts.scene.adhesion);
-        let mut cells = Row::of(found, account, &sizes, None, self.seed).cells(&names);
-        for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
-            cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
-        }
-        let header = self.facts.units.columns(&names, account.control, self.grid.is_line());
-        Ok(format.header(&header) + &format.line(&cells) + "\n")
+    /// The load on the whole map that is a load on the part of it that results are of.
+    fn on_whole(&self, load: Control) -> Control {
+        self.part.wanted().map_or(load, |original| original.load(load))
     }
 
-    /// What a command found, with its account; a solve that an observer ended may be anywhere.
-    fn solved(&mut self, command: &'static str, found: Found<T>) -> Outcome<Solved<T>> {
-        if self.last {
-            self.body = Body::Spent;
-        }
+    /// What a command found, with its account.
+    fn solved<T: Scalar>(mut self, command: &'static str, found: Found<T>) -> Outcome<Solved<T>> {
+        let account = self.account(command, &found)?;
+        Ok(Solved { found, account, facts: self })
+    }
+
+    /// The account of what a command found; a solve that an observer ended may be anywhere.
+    fn account<T: Scalar>(&mut self, command: &'static str, found: &Found<T>) -> Outcome<Account> {
         if found.solution.report.status != Status::Stopped {
             self.worded(check_finite(&found.solution))?;
         }
-        let warnings = self.look(&found);
-        let warnings = self.facts.processes.agree(warnings)?;
-        let account = found.account(command, &self.inputs, self.facts.strongest, warnings)?;
-        Ok(Solved { found, account })
+        let warnings = self.look(found);
+        let warnings = self.processes.agree(warnings)?;
+        Ok(found.account(command, &self.inputs, self.strongest, warnings)?)
     }
 
     /// The warnings of the input and of a state.
-    fn look(&mut self, found: &Found<T>) -> Outcome<Vec<Notice>> {
+    fn look<T: Scalar>(&mut self, found: &Found<T>) -> Outcome<Vec<Notice>> {
         let mut new = Vec::new();
-        if is_whole(&self.grid) {
-            let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.facts.scars_removed));
+        if is_whole(&found.solution.grid) {
+            let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.scars_removed));
             new = warnings_of(&*solution, found.sight.original, of_input)?;
             // a cycle goes from afar to afar, where the force is a small part of that in contact
             let is_apart = || solution.regions().iter().all(|region| matches!(region, Region::Apart | Region::Absent));
@@ -263,12 +242,12 @@ impl<T: Scalar> Session<T> {
                 new.retain(|warning| warning.code != WarningCode::WindowEdge);
             }
         }
-        self.warnings.add(new.iter().map(|warning| self.facts.units.describe(warning)).collect())
+        self.warnings.add(new.iter().map(|warning| self.units.describe(warning)).collect())
     }
 
     /// A result with a reason that has keys in braces.
     fn worded<V>(&self, result: std::result::Result<V, String>) -> Outcome<V> {
-        Ok(result.map_err(|reason| worded(&reason, self.facts.skin))?)
+        Ok(result.map_err(|reason| worded(&reason, self.skin))?)
     }
 }
 

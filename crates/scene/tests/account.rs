@@ -13,9 +13,9 @@ use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, AdhesionKeys, After, Boundary, Case, Elastic, Found, Given, Goal, GridErrors, GridLevel, Inputs,
-    Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row, Scene, Search, Session,
-    Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows, shortfalls,
-    without_files, worded,
+    Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row, Rows, Scene, Search,
+    Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows,
+    shortfalls, without_files, worded,
 };
 use ndarray::Array2;
 use serde::Deserialize;
@@ -60,8 +60,8 @@ fn solved(asked: &Request) -> Solved<f64> {
     posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap()
 }
 
-fn next(session: &mut Session<f64>) -> Option<(Found<f64>, Row)> {
-    session.next(&mut |_| ControlFlow::Continue(())).unwrap()
+fn next(rows: &mut Rows<f64>) -> Option<(Found<f64>, Row)> {
+    rows.next(&mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// The contact stiffness alone.
@@ -122,7 +122,7 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
     assert_eq!(keys(&report["grid_error"]), names(&[GridErrors::NUMBERS]));
 
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
-    let Solved { found, account } = solved(&Request { goal: Some(goal), ..under });
+    let Solved { found, account, .. } = solved(&Request { goal: Some(goal), ..under });
     let report = json!(account);
     assert_eq!(keys(&report["accuracy"]), names(&[Refinement::NUMBERS]));
     assert_eq!(keys(&report["grid_error"]["area"]), ["relative", "order", "rough"]);
@@ -150,24 +150,23 @@ fn continued(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array
     let mut rows = Vec::new();
     loop {
         let file = TableFile { out: folder.path().join("table.jsonl"), ..TableFile::default() };
-        let mut session = posed_by(scene);
-        session.begin(way.clone(), after, false, None, Some(file)).unwrap();
-        assert_eq!(session.rows(), rows.len());
-        let Some((found, row)) = next(&mut session) else { return rows };
-        rows.push((row.cells(&session.columns()).into(), found.solution.plastic_depth));
-        assert_eq!(session.read().unwrap().last(), rows.last().map(|(row, _)| row));
+        let mut table = posed_by(scene).begin(way.clone(), after, false, None, Some(file)).unwrap();
+        assert_eq!(table.count(), rows.len());
+        let Some((found, row)) = next(&mut table) else { return rows };
+        rows.push((row.cells(&table.columns()).into(), found.solution.plastic_depth));
+        assert_eq!(table.read().unwrap().last(), rows.last().map(|(row, _)| row));
     }
 }
 
 /// The same by one session without a file.
-fn at_once(session: &mut Session<f64>, way: &Way, after: After) -> Vec<(Value, Option<Array2<f64>>)> {
-    session.begin(way.clone(), after, false, None, None).unwrap();
-    let names = session.columns();
+fn at_once(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array2<f64>>)> {
+    let mut rows = posed_by(scene).begin(way.clone(), after, false, None, None).unwrap();
+    let names = rows.columns();
     let cells = |(found, row): (Found<f64>, Row)| {
         assert!(names.iter().all(|name| json!(row).as_object().unwrap().contains_key(*name)));
         (row.cells(&names).into(), found.solution.plastic_depth)
     };
-    std::iter::from_fn(|| next(session)).map(cells).collect()
+    std::iter::from_fn(|| next(&mut rows)).map(cells).collect()
 }
 
 #[test]
@@ -175,7 +174,7 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
     let gaps = [0.02, 0.01, 0.04].map(Control::MeanGap).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(gaps.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(gaps, settings)] {
-        let whole = at_once(&mut posed(), &way, stiff());
+        let whole = at_once(&scene(), &way, stiff());
         assert!(whole.len() >= 3);
         assert_eq!(continued(&scene(), &way, stiff()), whole);
     }
@@ -187,9 +186,9 @@ fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
-        let mut session = posed_by(&scene);
-        let whole = at_once(&mut session, &way, After::default());
-        assert!(session.columns().ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
+        let whole = at_once(&scene, &way, After::default());
+        let rows = posed_by(&scene).begin(way.clone(), After::default(), false, None, None).unwrap();
+        assert!(rows.columns().ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
         assert!(whole.len() >= 3 && whole.iter().any(|(_, depth)| depth.as_ref().unwrap().sum() > 0.0), "{way:?}");
         assert_eq!(continued(&scene, &way, After::default()), whole, "{way:?}");
     }
@@ -200,32 +199,30 @@ fn a_state_that_was_stopped_is_found_again_and_has_no_row() {
     let folder = tempfile::tempdir().unwrap();
     let file = || Some(TableFile { out: folder.path().join("table.csv"), ..TableFile::default() });
     let way = Way::Sweep([0.02, 0.01].map(Control::MeanGap).to_vec());
-    let whole = at_once(&mut posed(), &way, After::default());
-    let mut session = posed();
-    session.begin(way.clone(), After::default(), false, None, file()).unwrap();
-    let sought = session.seek(&mut |_| ControlFlow::Break(())).unwrap().unwrap();
-    let (stopped, _) = session.keep(sought).unwrap();
-    assert_eq!((stopped.solution.report.status, session.rows()), (Status::Stopped, 0));
+    let whole = at_once(&scene(), &way, After::default());
+    let mut rows = posed().begin(way.clone(), After::default(), false, None, file()).unwrap();
+    let sought = rows.seek(&mut |_| ControlFlow::Break(())).unwrap().unwrap();
+    let (stopped, _) = rows.keep(sought).unwrap();
+    assert_eq!((stopped.solution.report.status, rows.count()), (Status::Stopped, 0));
     for (row, _) in &whole {
-        assert_eq!(&json!(next(&mut session).unwrap().1.cells(&session.columns())), row);
+        assert_eq!(&json!(next(&mut rows).unwrap().1.cells(&rows.columns())), row);
     }
-    assert!(next(&mut session).is_none());
+    assert!(next(&mut rows).is_none());
     // another run may continue the file once it is released
     assert!(posed().begin(way.clone(), After::default(), false, None, file()).is_err());
-    session.release();
+    rows.release();
     posed().begin(way.clone(), After::default(), false, None, file()).unwrap();
     // without a place to come back to the way ends
-    let mut session = posed();
-    session.begin(way, After::default(), false, None, None).unwrap();
-    assert!(session.next(&mut |_| ControlFlow::Break(())).unwrap().is_some());
-    assert!(next(&mut session).is_none() && !session.columns().is_empty());
+    let mut rows = posed().begin(way, After::default(), false, None, None).unwrap();
+    assert!(rows.next(&mut |_| ControlFlow::Break(())).unwrap().is_some());
+    assert!(next(&mut rows).is_none() && !rows.columns().is_empty());
 }
 
 #[test]
 fn a_way_that_the_problem_does_not_have_is_refused_with_a_file_and_without_one() {
     let folder = tempfile::tempdir().unwrap();
     let file = TableFile { out: folder.path().join("table.csv"), ..TableFile::default() };
-    let refused = |way, file| posed().begin(way, After::default(), false, None, file).unwrap_err().to_string();
+    let refused = |way, file| posed().begin(way, After::default(), false, None, file).err().unwrap().to_string();
     let cycle = Way::Cycle([0.02, -0.01].map(Control::MeanGap).to_vec(), PathSettings::default());
     let told = refused(cycle.clone(), None);
     assert_eq!(refused(cycle, Some(file)), told);
@@ -241,15 +238,15 @@ fn warnings_of_the_input_stand_in_accounts_and_rows_and_may_be_errors() {
     let tilted = || Surface::new(grid, Array2::from_shape_fn((16, 16), |(i, _)| 0.1 * i as f64)).unwrap();
     let scene = Scene::default();
     let mut session = session(&scene, tilted(), false).unwrap();
-    let of_input: Vec<_> = session.warnings.tell().iter().map(|told| told.code.clone()).collect();
+    let of_input: Vec<_> = session.facts.warnings.tell().iter().map(|told| told.code.clone()).collect();
     assert!(!of_input.is_empty());
     let load = Control::MeanPressure(0.01);
-    session.begin(Way::Sweep(vec![load]), After::default(), false, None, None).unwrap();
-    let (_, row) = next(&mut session).unwrap();
+    let mut rows = session.begin(Way::Sweep(vec![load]), After::default(), false, None, None).unwrap();
+    let (_, row) = next(&mut rows).unwrap();
     let codes: Vec<_> = row.account.warnings.iter().map(|told| told.code.clone()).collect();
     assert!(codes.starts_with(&of_input), "{codes:?}");
     // each is told once
-    let new: Vec<_> = session.warnings.tell().iter().map(|told| told.code.clone()).collect();
+    let new: Vec<_> = rows.warnings().tell().iter().map(|told| told.code.clone()).collect();
     assert_eq!([of_input.clone(), new].concat(), codes);
     let refused = self::session(&scene, tilted(), true).err().unwrap().to_string();
     assert!(refused.starts_with(&of_input[0]), "{refused}");

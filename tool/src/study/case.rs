@@ -70,21 +70,22 @@ impl Run<'_> {
             }
             let (out, format, force) = (out.clone(), Some(self.format), self.force);
             let file = TableFile { out, format, force, is_case: true, law_table, works, ..TableFile::default() };
-            session.begin(way, after, false, start, Some(file))?;
-            tell(&mut session.warnings, 0, None);
-            session.warnings.keep_beside(&self.out, session.rows() > 0)?;
-            while let Some((_, row)) = session.next(&mut |_| ControlFlow::Continue(()))? {
-                let rows = session.rows();
-                tell(&mut session.warnings, rows, Some(&row.account));
+            let mut rows = session.begin(way, after, false, start, Some(file))?;
+            tell(rows.warnings(), 0, None);
+            let has_rows = rows.count() > 0;
+            rows.warnings().keep_beside(&self.out, has_rows)?;
+            while let Some((_, row)) = rows.next(&mut |_| ControlFlow::Continue(()))? {
+                let count = rows.count();
+                tell(rows.warnings(), count, Some(&row.account));
             }
             // of an accuracy, which is known without a further cycle
-            if session.coarser_shape().is_none() {
-                let limit = session.cycle_limit(&mut |_| ControlFlow::Continue(()))?;
+            if rows.coarser_shape().is_none() {
+                let limit = rows.cycle_limit(&mut |_| ControlFlow::Continue(()))?;
                 limit.and_then(|limit| limit.shortfall(Skin::Options)).into_iter().for_each(warn);
             }
             return Ok(());
         }
-        let (mut session, start) = (session.for_one_solve(), start.map(T::field));
+        let start = start.map(T::field);
         let mut observe = |_: &Grid, _: &Iteration, _: f64| ControlFlow::Continue(());
         let (mut solved, pulled_off) = match loads.first() {
             Some(_) => {
@@ -98,10 +99,10 @@ impl Run<'_> {
                 (last, Some(found))
             }
         };
-        let text = session.table_of(&mut solved, &after, pulled_off.as_ref(), self.format)?;
-        tell(&mut session.warnings, 1, Some(&solved.account));
+        let text = solved.table(&after, pulled_off.as_ref(), self.format)?;
+        tell(&mut solved.facts.warnings, 1, Some(&solved.account));
         let short = pulled_off.and_then(|found| found.shortfall(&solved.account, Skin::Options));
-        session.warnings.keep_beside(out, false)?;
+        solved.facts.warnings.keep_beside(out, false)?;
         write_text(out, &text)?;
         short.into_iter().for_each(warn);
         Ok(())

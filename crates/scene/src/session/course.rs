@@ -13,12 +13,12 @@ use serde_json::json;
 use crate::account::row::Kind;
 use crate::account::{Account, Found, Row, Search, Step, stiffness};
 use crate::clock::Instant;
-use crate::key::{Adhesion, After, Boundary, Scalar};
+use crate::key::{Adhesion, After, Boundary, Scalar, Scene};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
-use crate::session::Session;
 use crate::session::pace::Pace;
 use crate::session::way::Way;
+use crate::session::{OneGrid, Session};
 use crate::table::identity::Identity;
 use crate::table::journal::{damaged, refused};
 use crate::table::{Opening, Table};
@@ -255,9 +255,9 @@ impl<T: Scalar> Course<T> {
     /// Refuses a cycle that the problem does not have.
     ///
     /// # Errors
-    /// As [`Session::parts`] and [`Path::new`].
-    pub fn check(&self, session: &mut Session<T>) -> Result<()> {
-        let periodic = session.scene().elastic.boundary == Boundary::Periodic;
+    /// As [`Path::check`].
+    pub fn check(&self, one: &OneGrid<T>) -> Result<()> {
+        let periodic = one.facts.scene.elastic.boundary == Boundary::Periodic;
         if let (Way::Cycle(loads, _), true) = (&self.way, periodic)
             && matches!(loads.first(), Some(Control::Approach(_)))
         {
@@ -265,8 +265,8 @@ impl<T: Scalar> Course<T> {
             let reason = "its balance of energy needs a free boundary: give mean gaps, or sweep the approaches";
             return Err(Error::Unsuited { what: "cycle by approaches", reason });
         }
-        let (solver, problem) = session.parts()?;
-        if let Strategy::Cycle(path) = &self.place.strategy { path.check(solver, problem) } else { Ok(()) }
+        let Strategy::Cycle(path) = &self.place.strategy else { return Ok(()) };
+        path.check(&one.solver, &one.problem)
     }
 
     /// The next state; none at the end, and where the solve on a cycle was stopped.
@@ -275,17 +275,17 @@ impl<T: Scalar> Course<T> {
     /// Errors of the solvers of the library; after one the place is lost.
     pub fn next(
         &mut self,
-        session: &mut Session<T>,
+        one: &mut OneGrid<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Result<Option<Found<T>>> {
         if self.is_over {
             return Ok(None);
         }
-        let (clock, boundary) = (Instant::now(), session.scene().elastic.boundary);
-        let yields = session.scene().adhesion.yields();
+        let (clock, Scene { elastic, adhesion, .. }) = (Instant::now(), &one.facts.scene);
+        let (boundary, yields) = (elastic.boundary, adhesion.yields());
         let Place { strategy, states, events, .. } = &mut self.place;
-        let load = self.way.loads().get(*states).map(|load| session.on_whole(*load));
-        let (solver, problem) = session.parts()?;
+        let load = self.way.loads().get(*states).map(|load| one.facts.on_whole(*load));
+        let OneGrid { solver, problem, .. } = &mut *one;
         if yields && *states == 0 {
             // another course, or a state that was not kept, may have flattened it
             problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
@@ -316,8 +316,8 @@ impl<T: Scalar> Course<T> {
             }
         };
         *states += 1;
-        let found = Found { search, step, ..session.examine(solution, clock)? };
-        session.followed(found, &self.after).map(Some)
+        let found = Found { search, step, ..one.examine(solution, clock)? };
+        one.followed(found, &self.after).map(Some)
     }
 
     /// The row of the state that was found last, with its account, which a look completes. A withdrawal ends with a state

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use asperity::accuracy::{LoopGrid, LoopLimit};
 use asperity::path::{PathEnd, PathSettings};
 use asperity::solver::Iteration;
-use asperity::{AdhesionLaw, Control, Real, Solver, Status, Surface};
+use asperity::{AdhesionLaw, Control, Real, Status, Surface};
 use ndarray::Array2;
 use serde::Serialize;
 
@@ -16,9 +16,8 @@ use crate::key::{After, ENERGY_PER_AREA, Goal, PRESSURE, Scalar, Skin, record, w
 use crate::numbers::percent;
 use crate::outcome::Outcome;
 use crate::session::course::Course;
-use crate::session::posed::Body;
 use crate::session::way::Way;
-use crate::session::{Facts, Observe, Session};
+use crate::session::{Facts, Observe, Rows, Session};
 use crate::table::warnings::Warnings;
 
 record! {
@@ -70,12 +69,13 @@ type Level = ((usize, usize), PathEnd);
 /// What tells the limits of a cycle.
 pub(super) enum Coarser<T: Scalar> {
     /// The cycle on the coarser grid, which is followed after the last row.
-    Ahead(Box<Session<T>>),
+    Ahead(Box<(Session<T>, Course<T>)>),
     /// The cycle on coarser grids, which was followed before the first row, and chose the grid for an accuracy.
     Behind(Box<Chosen>),
 }
 
 /// The grid that was chosen for an accuracy.
+#[derive(Clone)]
 pub(super) struct Chosen {
     levels: Vec<Level>,
     accuracy: Refinement,
@@ -130,8 +130,8 @@ const MANY: usize = 1 << 14;
 impl<T: Scalar> Session<T> {
     /// Whether an accuracy could take a cycle from the default start to a coarser grid, in much less time.
     pub fn may_choose_grid(&self) -> bool {
-        let (elastic, whole) = (!self.facts.scene.adhesion.yields(), !self.grid.is_shared());
-        self.law.hints().touches() && elastic && whole && self.grid.nodes() >= MANY
+        let (elastic, whole) = (!self.facts.scene.adhesion.yields(), !self.grid().is_shared());
+        self.law.hints().touches() && elastic && whole && self.grid().nodes() >= MANY
     }
 
     /// Puts the session on the grid on which a cycle is likely to have an accuracy, by the cycle on coarser grids, from the
@@ -150,29 +150,26 @@ impl<T: Scalar> Session<T> {
             () => "",
         };
         if !refused.is_empty() {
-            return self.worded(Err(refused.to_owned()));
+            return self.facts.worded(Err(refused.to_owned()));
         }
         self.facts.processes.alone("the accuracy of a cycle")?;
-        let (surface, tolerance) = (self.surface()?, self.solver.settings.tolerance_in::<T>());
-        let mut operator = self.facts.scene.elastic.operator::<T>(*surface.grid())?;
+        let tolerance = self.tolerance(None)?;
+        let mut operator = self.facts.scene.elastic.operator::<T>(*self.grid())?;
         let follow = |surface: &Surface, law: &Arc<dyn AdhesionLaw<T>>| -> Outcome<_> {
             let (grid, surface) = (*surface.grid(), Arc::new(surface.clone()));
-            let mut session = self.on_grid(surface, law.clone(), loads, *settings, None)?;
-            let mut course = session.course.clone();
-            course.iter_mut().try_for_each(|course| course.check(&mut session))?;
-            session.follow(&mut |state| observe(&grid, state, tolerance))
+            let (session, course) = self.on_grid(surface, law.clone(), loads, *settings, None)?;
+            session.follow(course)?.end(&mut |state| observe(&grid, state, tolerance))
         };
         let wanted = goal.wanted(false);
-        let found = wanted.loop_grid(&surface, &mut operator, Arc::clone(&self.law), follow)?;
+        let found = wanted.loop_grid(&self.surface, &mut operator, Arc::clone(&self.law), follow)?;
         let found = found.ok_or("the cycle was stopped before its first row")?;
         let chosen = goal.chosen(&found);
         let LoopGrid { surface, law, levels, refinable, unaffordable, .. } = found;
         let surface = Arc::new(surface);
-        (self.grid, self.law, self.surface) = (*surface.grid(), law, Arc::downgrade(&surface));
-        self.body = Body::Surface(surface.clone());
-        self.facts.part = self.facts.part.on(self.grid)?;
+        self.facts.part = self.facts.part.on(*surface.grid())?;
+        (self.surface, self.law) = (surface.clone(), law);
         let accuracy = Refinement { wanted: goal.accuracy, of: goal.of, reached: false, refinable, unaffordable };
-        self.coarser = Some(Coarser::Behind(Box::new(Chosen { levels, accuracy, surface })));
+        self.chosen = Some(Box::new(Chosen { levels, accuracy, surface }));
         Ok(chosen)
     }
 
@@ -184,21 +181,21 @@ impl<T: Scalar> Session<T> {
         settings: PathSettings,
         start: Option<&Array2<f64>>,
     ) -> Outcome<Option<Coarser<T>>> {
-        let surface = self.surface()?;
+        let surface = &self.surface;
         if !self.law.hints().touches() || start.is_some() && surface.absent_nodes() > 0 {
             return Ok(None);
         }
         let on_coarser = |surface: &Surface| LoopLimit::coarser(surface, Arc::clone(&self.law));
-        let Some((coarse, law)) = on_coarser(&surface)? else { return Ok(None) };
+        let Some((coarse, law)) = on_coarser(surface)? else { return Ok(None) };
         // a field of the grid, as heights are one
         let start =
             start.map(|start| on_coarser(&Surface::new(*surface.grid(), start.clone())?)).transpose()?.flatten();
         let start = start.map(|(start, _)| start.heights().to_owned());
-        let session = self.on_grid(Arc::new(coarse), law, loads, settings, start)?;
-        Ok(Some(Coarser::Ahead(Box::new(session))))
+        let ahead = self.on_grid(Arc::new(coarse), law, loads, settings, start)?;
+        Ok(Some(Coarser::Ahead(Box::new(ahead))))
     }
 
-    /// The session of the same cycle on another grid, from a gap there or the default start.
+    /// The session and the course of the same cycle on another grid, from a gap there or the default start.
     fn on_grid(
         &self,
         surface: Arc<Surface>,
@@ -206,47 +203,32 @@ impl<T: Scalar> Session<T> {
         loads: &[Control],
         settings: PathSettings,
         start: Option<Array2<f64>>,
-    ) -> Outcome<Self> {
-        let constraint =
-            self.facts.scene.adhesion.constraint(self.facts.hardness.as_ref().map(|hardness| hardness.view()))?;
-        let solver = Solver { settings: self.solver.settings, constraint };
-        let loads: Vec<_> = loads.iter().map(|load| self.on_whole(*load)).collect();
-        let (part, strongest, hardness, scars_removed) = (Part::all(*surface.grid()), None, None, None);
-        let mut session = Self {
-            inputs: self.inputs.clone(),
-            seed: None,
-            warnings: Warnings::new(Vec::new(), false)?,
-            facts: Facts { part, strongest, hardness, scars_removed, ..self.facts.clone() },
-            surface: Arc::downgrade(&surface),
-            grid: *surface.grid(),
-            last: false,
-            course: None,
-            table: None,
-            coarser: None,
-            body: Body::Surface(surface),
-            law,
-            solver,
-        };
+    ) -> Outcome<(Self, Course<T>)> {
+        let loads: Vec<_> = loads.iter().map(|load| self.facts.on_whole(*load)).collect();
+        let (part, warnings) = (Part::all(*surface.grid()), Warnings::new(Vec::new(), false)?);
+        let facts = Facts { part, warnings, seed: None, strongest: None, scars_removed: None, ..self.facts.clone() };
+        let session = Self { facts, surface, law, chosen: None };
         let start = start.or_else(|| session.start_afar(&loads)).map(T::field);
         let course = Course::new(Way::Cycle(loads, settings), After::default(), None, |load| load)?;
-        session.course = Some(course.starting_from(start));
-        Ok(session)
+        Ok((session, course.starting_from(start)))
     }
+}
 
-    /// The end of its cycle, which is followed to there; none if an observer ends a solve.
-    fn follow(&mut self, observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send)) -> Outcome<Option<PathEnd>> {
+impl<T: Scalar> Rows<T> {
+    /// The end of the cycle, which is followed to there; none if an observer ends a solve.
+    fn end(&mut self, observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send)) -> Outcome<Option<PathEnd>> {
         while let Some((found, _)) = self.next(&mut *observe)? {
             if found.solution.report.status == Status::Stopped {
                 return Ok(None);
             }
         }
-        Ok(self.course.as_ref().and_then(Course::end))
+        Ok(self.course.end())
     }
 
     /// The number of nodes along the sides of the coarser grid on which the cycle is followed after its last row, for its
     /// limits, if it is.
     pub fn coarser_shape(&self) -> Option<(usize, usize)> {
-        if let Some(Coarser::Ahead(coarser)) = &self.coarser { Some(coarser.grid.shape()) } else { None }
+        if let Some(Coarser::Ahead(coarser)) = &self.coarser { Some(coarser.0.grid().shape()) } else { None }
     }
 
     /// The limits of no range of a cycle whose last state is kept; none where no coarser grid tells them, and if an observer
@@ -261,13 +243,14 @@ impl<T: Scalar> Session<T> {
         let (mut levels, accuracy) = match self.coarser.take() {
             None => return Ok(None),
             Some(Coarser::Behind(chosen)) => (chosen.levels, Some(chosen.accuracy)),
-            Some(Coarser::Ahead(mut coarser)) => {
-                let Some(end) = coarser.follow(observe)? else { return Ok(None) };
-                (vec![(coarser.grid.shape(), end)], None)
+            Some(Coarser::Ahead(ahead)) => {
+                let (session, course) = *ahead;
+                let shape = session.grid().shape();
+                let Some(end) = session.follow(course)?.end(observe)? else { return Ok(None) };
+                (vec![(shape, end)], None)
             }
         };
-        let end = self.course.as_ref().and_then(Course::end);
-        levels.extend(end.map(|end| (self.grid.shape(), end)));
+        levels.extend(self.course.end().map(|end| (self.one.problem.grid().shape(), end)));
         Ok(CycleLimits::of(&levels, accuracy))
     }
 }

@@ -56,6 +56,7 @@ pub fn write_beside(table: &Path, warnings: &[Notice]) -> Outcome<()> {
 }
 
 /// The warnings of a run so far, each told once; the worst of each code is kept.
+#[derive(Clone)]
 pub struct Warnings {
     of_input: Vec<Notice>,
     found: Vec<Notice>,

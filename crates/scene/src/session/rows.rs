@@ -1,10 +1,10 @@
-//! The table of a session: its way through loads, state by state, and the file that it fills.
+//! The rows of a session: its way through loads, state by state, and the file of its table.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::solver::Iteration;
-use asperity::{Error, Status};
+use asperity::{Error, Grid, Result, Status};
 use asperity_maps::warning::Warning;
 use ndarray::Array2;
 use serde_json::Value;
@@ -17,10 +17,10 @@ use crate::session::course::Course;
 use crate::session::limit::Coarser;
 use crate::session::pace::Pace;
 use crate::session::way::Way;
-use crate::session::{Session, Solved};
+use crate::session::{Facts, OneGrid, Session};
 use crate::table::identity::{Fields, Identity, identity};
 use crate::table::output::with_suffix;
-use crate::table::warnings::path_for;
+use crate::table::warnings::{Warnings, path_for};
 use crate::table::{Format, Opening, Table};
 
 /// The file of a table, with the fields of the law on which its rows depend.
@@ -53,8 +53,14 @@ pub struct Next<T: Scalar> {
     course: Course<T>,
 }
 
-/// The refusal of a state before there is a way.
-const NOT_BEGUN: &str = "there are no loads to follow: begin first";
+/// The rows along a way through loads, as they are found, and the file of their table.
+pub struct Rows<T: Scalar> {
+    pub(super) one: OneGrid<T>,
+    pub(super) course: Course<T>,
+    table: Option<Table>,
+    /// What tells the limits of a cycle
+    pub(super) coarser: Option<Coarser<T>>,
+}
 
 impl<T: Scalar> Session<T> {
     /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or
@@ -64,20 +70,17 @@ impl<T: Scalar> Session<T> {
     /// A way that the problem does not have, a table of another run, or one that was changed or is being written, and files
     /// that are not to be replaced or cannot be written.
     pub fn begin(
-        &mut self,
+        mut self,
         way: Way,
         after: After,
         is_interface: bool,
         start: Option<Array2<f64>>,
         file: Option<TableFile>,
-    ) -> Outcome<()> {
-        let loads = way.loads();
-        let control = way.control(&self.facts.scene);
-        self.worded(Request { after, ..Request::under(control) }.check(
-            &self.facts.scene.adhesion,
-            self.facts.scene.method,
-            false,
-        ))?;
+    ) -> Outcome<Rows<T>> {
+        let (loads, scene) = (way.loads(), &self.facts.scene);
+        let control = way.control(scene);
+        let asked = Request { after, ..Request::under(control) };
+        self.facts.worded(asked.check(&scene.adhesion, scene.method, false))?;
         if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
@@ -85,85 +88,111 @@ impl<T: Scalar> Session<T> {
         let afar = if start.is_none() { self.start_afar(loads) } else { None };
         let touch = match is_interface {
             true => {
-                let surface = self.surface()?;
-                if surface.absent_nodes() > 0 {
+                if self.surface.absent_nodes() > 0 {
                     self.facts.processes.alone("the closure of a surface with absent nodes")?;
                 }
-                Some(touch(&surface))
+                Some(touch(&self.surface))
             }
             false => None,
         };
-        self.coarser =
-            self.coarser.take().filter(|coarser| matches!((coarser, &way), (Coarser::Behind(_), Way::Cycle(..))));
+        let mut coarser = None;
         if let Way::Cycle(_, settings) = &way {
-            if self.coarser.is_none() {
-                self.coarser = self.coarser(loads, *settings, start.as_ref())?;
-            }
-            let modulus = self.facts.scene.elastic.body()?.modulus_on(&self.grid);
-            let found = Warning::of_cycle(&*self.law, &self.grid, modulus, settings.smooth);
-            self.warnings.add_of_input(found.iter().map(|warning| self.facts.units.describe(warning)).collect())?;
+            coarser = match self.chosen.take() {
+                Some(chosen) => Some(Coarser::Behind(chosen)),
+                None => self.coarser(loads, *settings, start.as_ref())?,
+            };
+            let modulus = scene.elastic.body()?.modulus_on(self.grid());
+            let found = Warning::of_cycle(&*self.law, self.grid(), modulus, settings.smooth);
+            let found = found.iter().map(|warning| self.facts.units.describe(warning)).collect();
+            self.facts.warnings.add_of_input(found)?;
         }
-        let mut course = Course::new(way, after, touch, |load| self.on_whole(load))?;
-        course.expect(self)?;
+        let mut course = Course::new(way, after, touch, |load| self.facts.on_whole(load))?;
+        course.expect(&self)?;
         let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
-        course.check(self)?;
+        let Rows { one, course, .. } = self.follow(course)?;
         let start = start.or(afar).map(T::field);
-        // the one before, if there is one, may have the same file
-        self.table = None;
-        self.course = Some(match file.zip(identity) {
-            None => course.starting_from(start),
+        let (course, table) = match file.zip(identity) {
+            None => (course.starting_from(start), None),
             Some((file, identity)) => {
-                let opening = self.opening(file, &course, identity, control.name())?;
-                let (table, course) = course.open(opening, start, &self.nodes()?, &self.facts.processes)?;
-                self.table = Some(table);
-                course
+                let opening = one.opening(&course, file, identity, control.name())?;
+                let (table, course) = course.open(opening, start, &one.nodes(), &one.facts.processes)?;
+                (course, Some(table))
             }
-        });
-        Ok(())
+        };
+        Ok(Rows { one, course, table, coarser })
     }
 
-    /// What opens the table of a course in a file.
-    fn opening(&self, file: TableFile, course: &Course<T>, identity: Identity, control: &str) -> Outcome<Opening> {
-        let TableFile { out, format, fields, force, is_case, .. } = file;
-        let known = format.or_else(|| Format::of(&out));
-        let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
-        let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
-        let header = self.facts.units.columns(&names, control, self.grid.is_line());
-        let beside = vec![with_suffix(&out, ".scene.toml"), path_for(&out)];
-        Ok(Opening { out, format, names, header, identity, loads, fields, force, is_case, beside })
+    /// The rows of a course that the problem has.
+    ///
+    /// # Errors
+    /// As [`Session::on_one_grid`] and [`Course::check`].
+    pub(super) fn follow(self, course: Course<T>) -> Result<Rows<T>> {
+        let one = self.on_one_grid()?;
+        course.check(&one)?;
+        Ok(Rows { one, course, table: None, coarser: None })
     }
 
     /// The identity of the problem with the fields of a table, which the first of several processes knows, from a given
     /// start.
     fn identity(&self, file: &TableFile, start: Option<&Array2<f64>>) -> Outcome<Identity> {
-        let surface = self.surface()?;
-        let (start, surface) = (start.map(|start| self.grid.whole(start)), surface.whole());
-        if !self.facts.processes.is_first() {
+        let Self { facts, surface, law, .. } = self;
+        let (start, surface) = (start.map(|start| self.grid().whole(start)), surface.whole());
+        if !facts.processes.is_first() {
             return Ok(Identity::new());
         }
         let given = Fields {
             surface: &surface,
             law_table: file.law_table.as_deref(),
             works: file.works.as_deref(),
-            hardness: self.facts.hardness.as_deref(),
+            hardness: facts.hardness.as_deref().map(|hardness| &**hardness),
             start: start.as_deref(),
             law_differs: file.law_differs,
         };
-        Ok(identity(&self.inputs, self.solver.settings.branch, &self.facts.units.of_table(), given, &*self.law))
+        Ok(identity(&facts.inputs, facts.scene.settings().branch, &facts.units.of_table(), given, &**law))
+    }
+}
+
+impl<T: Scalar> OneGrid<T> {
+    /// What opens the table of a course in a file.
+    fn opening(&self, course: &Course<T>, file: TableFile, identity: Identity, control: &str) -> Outcome<Opening> {
+        let TableFile { out, format, fields, force, is_case, .. } = file;
+        let known = format.or_else(|| Format::of(&out));
+        let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
+        let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
+        let header = self.facts.units.columns(&names, control, self.nodes().is_line());
+        let beside = vec![with_suffix(&out, ".scene.toml"), path_for(&out)];
+        Ok(Opening { out, format, names, header, identity, loads, fields, force, is_case, beside })
     }
 
-    /// The names of the columns of the table, once it was begun.
+    /// The grid of the operator, on which the next state follows.
+    fn nodes(&self) -> Grid {
+        *self.problem.operator().grid()
+    }
+}
+
+impl<T: Scalar> Rows<T> {
+    /// The facts that the accounts of the rows have in common.
+    pub fn facts(&self) -> &Facts {
+        &self.one.facts
+    }
+
+    /// The warnings so far.
+    pub fn warnings(&mut self) -> &mut Warnings {
+        &mut self.one.facts.warnings
+    }
+
+    /// The names of the columns of the table.
     pub fn columns(&self) -> Vec<&'static str> {
-        self.course.as_ref().map_or(Vec::new(), |course| course.columns(&self.facts.scene.adhesion))
+        self.course.columns(&self.facts().scene.adhesion)
     }
 
-    /// The command of the table, once it was begun.
+    /// The command of the table.
     pub fn command(&self) -> &'static str {
-        self.course.as_ref().map_or("", Course::command)
+        self.course.command()
     }
 
-    /// Finds the next state of the way that was begun last; none at its end. The way continues from it once it is
-    /// [kept](Self::keep): a state that was stopped, or ran away, is looked for again.
+    /// Finds the next state of the way; none at its end. The way continues from it once it is [kept](Self::keep): a state
+    /// that was stopped, or ran away, is looked for again.
     ///
     /// # Errors
     /// Errors of the solvers of the library, a solve that ran away, warnings, if they are errors, and rows that another
@@ -172,26 +201,27 @@ impl<T: Scalar> Session<T> {
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Outcome<Option<Next<T>>> {
-        let mut course = self.course.clone().ok_or(NOT_BEGUN)?;
-        let found = self.found_on(&mut course, observe)?;
-        Ok(found.map(|(found, row)| Next { found, row, course }))
+        let before = self.course.clone();
+        let found = self.find(observe);
+        let course = std::mem::replace(&mut self.course, before);
+        Ok(found?.map(|(found, row)| Next { found, row, course }))
     }
 
-    /// The next state of a course.
-    fn found_on(
+    /// Finds the next state, with its row.
+    fn find(
         &mut self,
-        course: &mut Course<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Outcome<Option<(Found<T>, Row)>> {
-        if let Some(table) = &mut self.table {
-            self.facts.processes.first(|| table.claim())?;
+        let Self { one, course, table, coarser } = self;
+        if let Some(table) = table {
+            one.facts.processes.first(|| table.claim())?;
         }
-        let Some(found) = course.next(self, observe)? else { return Ok(None) };
-        let Solved { mut found, account } = self.solved(course.command(), found)?;
-        if let Some(Coarser::Behind(chosen)) = &self.coarser {
+        let Some(mut found) = course.next(one, observe)? else { return Ok(None) };
+        let account = one.facts.account(course.command(), &found)?;
+        if let Some(Coarser::Behind(chosen)) = coarser {
             found.refined = Some((*chosen.surface).clone());
         }
-        let row = course.row(&mut found, account, self.seed)?;
+        let row = course.row(&mut found, account, one.facts.seed)?;
         Ok(Some((found, row)))
     }
 
@@ -202,11 +232,10 @@ impl<T: Scalar> Session<T> {
     pub fn keep(&mut self, next: Next<T>) -> Outcome<(Found<T>, Row)> {
         let Next { found, row, course } = next;
         if found.solution.report.status != Status::Stopped {
-            let nodes = self.nodes()?;
             if let Some(table) = &mut self.table {
-                course.append(table, (&found, &row), &nodes, &self.facts.processes)?;
+                course.append(table, (&found, &row), &self.one.nodes(), &self.one.facts.processes)?;
             }
-            self.course = Some(course);
+            self.course = course;
         }
         Ok((found, row))
     }
@@ -220,14 +249,14 @@ impl<T: Scalar> Session<T> {
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Outcome<Option<(Found<T>, Row)>> {
-        let mut course = self.course.take().ok_or(NOT_BEGUN)?;
-        let found = self.found_on(&mut course, observe)?;
-        course.is_over |= found.as_ref().is_none_or(|(found, _)| found.solution.report.status == Status::Stopped);
-        if course.is_over {
-            self.course = Some(course);
-            return Ok(found);
+        let found = self.find(observe);
+        let goes_on = |found: &(Found<T>, Row)| found.0.solution.report.status != Status::Stopped;
+        self.course.is_over |= !found.as_ref().is_ok_and(|found| found.as_ref().is_some_and(goes_on));
+        let found = found?;
+        if let (Some((found, row)), Some(table), false) = (&found, &mut self.table, self.course.is_over) {
+            self.course.append(table, (found, row), &self.one.nodes(), &self.one.facts.processes)?;
         }
-        found.map(|(found, row)| self.keep(Next { found, row, course })).transpose()
+        Ok(found)
     }
 
     /// Lets other runs write the table until the next state.
@@ -236,7 +265,7 @@ impl<T: Scalar> Session<T> {
     }
 
     /// The number of rows that the table has.
-    pub fn rows(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.table.as_ref().map_or(0, Table::rows)
     }
 
@@ -252,7 +281,7 @@ impl<T: Scalar> Session<T> {
 
     /// The pace of a cycle.
     pub fn pace(&self) -> Option<&Pace> {
-        self.course.as_ref().and_then(Course::pace)
+        self.course.pace()
     }
 
     /// All rows of the file of the table; every process gets them.
@@ -260,6 +289,6 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// A file that cannot be read.
     pub fn read(&self) -> Outcome<Vec<Value>> {
-        self.table.as_ref().map_or(Ok(Vec::new()), |table| table.read(&self.facts.processes))
+        self.table.as_ref().map_or(Ok(Vec::new()), |table| table.read(&self.one.facts.processes))
     }
 }
