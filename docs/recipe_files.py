@@ -1,18 +1,15 @@
-"""Writes the files that recipes read: force curves of a sharp tip and of a rough one, the rough tip, a map of curves.
+"""Writes the files that recipes read: a force curve of a sharp tip, and a map of force curves.
 
     python docs/recipe_files.py FOLDER
 """
 
 import runpy
 import sys
-import warnings
 from pathlib import Path
 
 import afmformats
 import h5py
 import numpy as np
-
-import asperity
 
 PYTHON = Path(__file__).resolve().parents[1] / "python"
 CURVES, MAP = (runpy.run_path(str(PYTHON / path)) for path in ("tests/force_curves.py", "benches/curve_map.py"))
@@ -35,20 +32,10 @@ def write_map(path):
             afmformats.AFMForceDistance(data, here).export_data(file, metadata=True, fmt="hdf5")
 
 
-def write_rough_tip(folder):
-    """The heights of a rough tip, and its force curve."""
-    tip = CURVES["rough_tip"]()
-    np.savez(folder / "tip.npz", heights=tip.heights, lengths=tip.lengths, unit="m")
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
-        write_curve(folder / "rough.csv", *CURVES["cycled"](tip, 2e9, 0.04, 10.0))
-
-
 def write_all(folder):
     folder.mkdir(parents=True, exist_ok=True)
     write_curve(folder / "curve.csv", *CURVES["curve"](1.0, 20.0, points=400))
     write_map(folder / "map.h5")
-    write_rough_tip(folder)
 
 
 if __name__ == "__main__":

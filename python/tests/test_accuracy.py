@@ -72,29 +72,3 @@ def test_an_accuracy_that_is_not_reached_is_a_warning_with_the_reason(coarse):
     with pytest.warns(asperity.ConvergenceWarning, match="stopped"):
         found = asperity.solve(coarse, accuracy=0.01, accuracy_of="gap", observe=stop, **PRESSED)
     assert found.gap.shape == (32, 32) and found.contact_stiffness is None
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"accuracy": 1.5}, "accuracy is 1.5: it must be between 0 and 1"),
-        ({"accuracy": np.nan}, "accuracy is NaN"),
-        ({"accuracy": 0.05, "tolerance": 1e-2}, "tolerance is 0.01: it must be at most a twentieth of the accuracy"),
-        ({"accuracy": 0.05, "accuracy_of": "pressure"}, "accuracy of the pressure: it is given"),
-        ({"accuracy": 0.05, "accuracy_of": "energy"}, "accuracy_of is energy: it must be area, gap"),
-        ({"accuracy": 0.05, "memory": -1}, "memory is -1: it must be a number, positive"),
-        ({"accuracy": 1e-7, "memory": 1e-2}, "1e-7 of the area takes about .*GiB.*enough for about"),
-        ({"accuracy_of": "gap"}, "accuracy_of needs accuracy: give both"),
-        ({"accuracy": 0.05, "nested": False}, "leave out nested"),
-        ({"accuracy": 0.05, "start": np.ones((32, 32)), "stability": True}, "leave out start and stability"),
-        ({"accuracy": 0.05, "leave": True}, "leave out leave"),
-    ],
-)
-def test_accuracies_that_make_no_sense_are_refused(coarse, given, message):
-    with pytest.raises(ValueError, match=message):
-        asperity.solve(coarse, **PRESSED, **given)
-
-
-def test_an_accuracy_is_of_a_load_that_is_given(coarse):
-    with pytest.raises(ValueError, match="leave out accuracy, or give a load"):
-        asperity.solve(coarse, modulus=1.0, contact_fraction=0.1, accuracy=0.05)

@@ -70,15 +70,5 @@ def test_bodies_that_do_not_exist_are_refused(rough, body, message):
         pressed(rough, body=body())
 
 
-def test_a_free_boundary_has_no_layer(rough):
-    with pytest.raises(ValueError, match="layer has no free boundary"):
-        pressed(rough, mean_pressure=None, normal_force=0.01, boundary="free", body=asperity.Layer(0.1, 0.3))
-
-
-def test_a_body_that_is_thin_beside_the_nodes_is_named(rough):
-    with pytest.warns(asperity.InputWarning, match="thin-body"):
-        pressed(rough, body=asperity.Layer(2e-3, 0.3))
-
-
 def test_bodies_can_be_copied_and_compared():
     assert pickle.loads(pickle.dumps(COATING)) == COATING != asperity.Layer(0.02, 0.3)

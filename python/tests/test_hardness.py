@@ -83,28 +83,6 @@ def test_a_hardness_has_the_axes_of_the_heights(surface, elastic):
     assert np.array_equal(found.contact_pressure, expected.contact_pressure)
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"stability": True}, "stability and hardness"),
-        ({"leave": True}, "leave and hardness"),
-        ({"stiffness": True}, "stiffness and hardness"),
-        ({"accuracy": 0.1}, "accuracy and hardness"),
-        ({"method": "rey2017"}, "method='rey2017' and hardness"),
-        ({"wall": asperity.Penalty(100.0)}, "wall penalty does not yield"),
-        ({"hardness": 0.02}, "mean pressure.*below the hardness"),
-        ({"hardness": 0.0}, "hardness is 0"),
-        ({"hardness": np.full((48, 48), np.nan)}, "hardness"),
-    ],
-)
-def test_what_does_not_fit_is_refused(surface, given, message):
-    with pytest.raises(ValueError, match=message):
-        asperity.solve(surface, **{"modulus": 1.0, "mean_pressure": 0.02, "hardness": 0.2, **given})
-    if "stiffness" in given:
-        with pytest.raises(ValueError, match=message):
-            asperity.sweep(surface, modulus=1.0, mean_pressures=LOADS, hardness=0.2, stiffness=True)
-
-
 def test_an_equilibrium_that_has_yielded_has_no_stability(surface):
     solution = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=0.2)
     with pytest.raises(ValueError, match="does not come back"):

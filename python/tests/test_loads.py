@@ -130,19 +130,3 @@ def test_a_contact_that_jumps_past_the_fraction_is_told():
         asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=1.0)
     with pytest.raises(ValueError, match="nested"):
         asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=0.5, nested=True)
-
-
-def test_an_interrupted_search_goes_on_with_the_same_bits(rough):
-    whole = asperity.sweep(rough, modulus=1.0, contact_fractions=[0.05, 0.1, 0.2]).columns
-    seen = []
-
-    def observe(state):
-        if len(sweep.rows) == 1 and not seen:
-            seen.append(state)
-            raise KeyboardInterrupt
-
-    sweep = asperity.sweep(rough, modulus=1.0, contact_fractions=[0.05, 0.1, 0.2], observe=observe)
-    with pytest.raises(KeyboardInterrupt):
-        sweep.run()
-    for name, column in sweep.columns.items():
-        assert list(column) == list(whole[name]) or np.isnan(column).all(), name

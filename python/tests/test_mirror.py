@@ -39,13 +39,6 @@ def test_a_start_may_be_of_either(mirrored):
     assert asperity.stability(first).mode.shape == (32, 24)
 
 
-def test_rows_say_of_which_part_and_seed_they_are(mirrored):
-    columns = asperity.sweep(mirrored, modulus=1.0, mean_gaps=[0.02, 0.01]).columns
-    assert list(columns["part"]) == ["original"] * 2 and list(columns["seed"]) == [5, 5]
-    plain = asperity.sweep(mirrored.heights, 1.0, modulus=1.0, mean_gaps=[0.02]).columns
-    assert plain["part"][0] is None and np.isnan(plain["seed"][0])
-
-
 def test_an_accuracy_refines_the_original_too(mirrored):
     right = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, accuracy=0.2)
     assert right.gap.shape == right.heights.shape == tuple(right.report["shape"])

@@ -63,22 +63,6 @@ def test_tables_stability_and_accuracy_have_both(pair, tmp_path):
     )
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"shift": 0.1}, "there is no surface on the other side"),
-        ({"against": np.zeros((8, 8))}, "against has 8 x 8 nodes .*heights has 32 x 32 .*asperity.prepare\\(crop=...\\)"),
-        ({"against": np.full((32, 32), np.nan)}, "1024 of 1024 points are missing: .*absent_missing=True"),
-        ({"against": np.zeros((32, 32)), "against_modulus": -1.0}, "against_modulus is -1.0: it must be a number, positive"),
-        ({"against": np.zeros((32, 32)), "shift": (0.1, 0.0), "boundary": "free"}, "shift is 0.1 0, but with a free boundary"),
-        ({"against": asperity.Topography(np.zeros((32, 32)), unit="nm")}, "against is in nm, but heights names no unit"),
-    ],
-)
-def test_what_does_not_fit_is_refused(pair, given, message):
-    with pytest.raises(ValueError, match=message):
-        pressed(pair[0], **given)
-
-
 def test_a_shift_has_two_lengths_at_most(pair):
     with pytest.raises(ValueError, match="shift is 1, 2, 3: it must be one value or two"):
         pressed(pair[0], against=pair[1], shift=(1, 2, 3))

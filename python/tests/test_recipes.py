@@ -72,7 +72,7 @@ def a_soft_coating_under_an_afm(found):
         share = 2.25 * scaled**1.5 / (1 + 2.25 * scaled**1.5)
         exact = (1 - poisson**2) * (1 + (1 / ratio - 1) * share) / np.array(row)
         for width, force in zip(widths, exact):
-            radii = np.linspace(0.3 * width, 1.6 * width, 12)
+            radii = np.linspace(0.3 * width, 1.6 * width, 8)
             roots, forces = np.transpose([on_coating(radius, ratio, poisson) for radius in radii])
             assert np.polyval(np.polyfit(roots, forces, 5), width) == pytest.approx(force, rel=3e-3)
     assert len(page) == 4 and formula.min() < 0.6 and pathlib.Path("coating.png").stat().st_size > 1000
@@ -189,15 +189,6 @@ def bonding_of_a_wafer(found):
         load = share * 1e-6 * plate(np.array([q]))[0]
         closed = asperity.solve(wave, modulus=140e9, mean_pressure=load, body=found["wafer"](1e-3))
         assert closed.contact_fraction == 1.0 if share > 1 else closed.contact_fraction < area
-
-
-def a_force_curve_of_a_rough_tip(found):
-    fit = found["fit"]
-    with pytest.warns(asperity.InputWarning, match="is not that of a smooth paraboloid"):
-        smooth = asperity.fit_curve(*asperity.read_curve("rough.csv"), radius="40nm", **found["units"])
-    assert [f"{end / 1e9:.2f}" for end in fit.modulus] == ["2.00", "1.99", "2.02"]
-    assert [f"{1e3 * one.work_of_adhesion.value:.0f}" for one in (fit, smooth)] == ["40", "31"]
-    assert f"{100 * found['table'].error:.1f}" == "0.3" and pathlib.Path("rough.png").stat().st_size > 1000
 
 
 def two_hundred_surfaces(found):

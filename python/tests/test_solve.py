@@ -29,15 +29,6 @@ def test_fields_are_arrays_of_the_shape_of_the_heights(rough):
     assert np.array_equal(solution.displacement, solution.gap + rough.heights)
 
 
-def test_a_line_has_fields_of_one_dimension():
-    wave = 0.02 * np.cos(2 * np.pi * np.arange(128) / 128)
-    solution = asperity.solve(wave, 1.0, modulus=1.0, mean_pressure=0.03)
-    exact = asperity.exact.WavyLine(0.02, 1.0, 1.0).at_mean_pressure(0.03)
-    assert solution.gap.shape == solution.contact.shape == (128,)
-    # two edges, each to a node
-    assert abs(solution.contact.mean() - 2 * exact.half_width) < 2 / 128
-
-
 def test_single_precision_has_fields_and_a_default_tolerance_of_its_own(rough):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, precision="f32")
     double = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
@@ -61,36 +52,6 @@ def test_a_solve_that_has_not_converged_is_a_status_and_a_warning(rough):
     assert not solution.converged and solution.status == "iteration-limit"
     assert solution.gap.min() >= 0 and solution.relative_error > 1e-6
     assert caught[0].filename == __file__  # the line of the caller
-
-
-def test_a_probable_mistake_is_a_warning_and_in_the_report(rough):
-    with (
-        pytest.warns(asperity.InputWarning, match="hardness: .* give the hardness of the softer body"),
-        pytest.warns(asperity.InputWarning, match="steep: "),
-    ):
-        solution = asperity.solve(8 * rough.heights, 1.0, modulus=1.0, mean_pressure=1e-4)
-    assert [warning["code"] for warning in solution.report["warnings"]] == ["steep", "hardness"]
-    with pytest.warns(asperity.InputWarning, match="steep: "):
-        solution = asperity.solve(8 * rough.heights, 1.0, modulus=1.0, mean_pressure=1e-4, hardness=0.2)
-    assert [warning["code"] for warning in solution.report["warnings"]] == ["steep"]
-
-
-def test_a_body_in_a_periodic_cell_and_a_modulus_beside_metres_are_told(rough, sphere):
-    with pytest.warns(asperity.InputWarning, match="ends: the heights fall to all edges"):
-        asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.05)
-    heights = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6), "m")
-    with pytest.warns(asperity.InputWarning, match="modulus: the contact modulus is 70,"):
-        asperity.solve(heights, modulus=70.0, mean_pressure=0.1)
-    asperity.solve(heights, modulus=70e9, mean_pressure=1e8)
-
-
-@pytest.mark.parametrize(("unit", "length"), [(None, "2"), ("nm", "2 nm")])
-def test_lengths_in_warnings_have_the_unit_of_the_map(rough, unit, length):
-    heights = asperity.Topography(rough.heights, rough.lengths, unit)
-    law = asperity.Exponential(work_of_adhesion=0.1, range=2.0)
-    with pytest.warns(asperity.InputWarning, match=f"range of adhesion, {length}, exceeds"):
-        solution = asperity.solve(heights, modulus=1.0, mean_gap=1.0, law=law)
-    assert f"range of adhesion, {length}, exceeds" in solution.report["warnings"][0]["message"]
 
 
 def test_an_observer_sees_the_iterations(rough):
@@ -185,13 +146,6 @@ def test_the_interpreter_is_free_during_a_solve():
 
 
 @pytest.mark.filterwarnings("ignore:ends")
-def test_stability_is_asked_for(sphere, law):
-    solution = asperity.solve(sphere, 1.0, modulus=1.0, mean_gap=0.0398, law=law, stability=True)
-    assert solution.report["stability"]["verdict"] == "stable" and solution.report["departures"] is None
-    assert np.isclose((solution.mode**2).mean(), 1.0)
-
-
-@pytest.mark.filterwarnings("ignore:ends")
 def test_the_stability_of_a_solution_depends_on_what_holds_it(sphere, law):
     options = {"modulus": 1.0, "mean_gap": 0.0398, "law": law}
     asked = asperity.solve(sphere, 1.0, stability=True, **options)
@@ -206,30 +160,6 @@ def test_the_stability_of_a_solution_depends_on_what_holds_it(sphere, law):
             break
     else:
         raise AssertionError("no state that a pressure would not hold")
-
-
-def test_nested_grids_come_to_the_same_equilibrium():
-    rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_l=2, k_s=16, seed=3)
-    seen = []
-    nested = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, nested=True, observe=seen.append)
-    single = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, nested=False)
-    assert len(nested.report["levels"]) == 2 and single.report["levels"] is None
-    assert len(seen) > nested.iterations
-    assert np.isclose(nested.mean_gap, single.mean_gap, rtol=1e-6)
-    assert asperity.stability(nested).verdict == "stable"
-    for given in ({"start": single}, {"stability": True}, {"leave": True}):
-        with pytest.raises(ValueError, match="nested grids make their own start"):
-            asperity.solve(rough, modulus=1.0, mean_pressure=0.01, nested=True, **given)
-
-
-def test_an_unstable_equilibrium_is_left():
-    law = asperity.Exponential(1e-3, 1e-2)
-    with pytest.warns(asperity.InputWarning, match="flat"), pytest.warns(asperity.ConvergenceWarning, match="unstable"):
-        even = asperity.solve(np.zeros(64), 1.0, modulus=1.0, mean_gap=0.011, law=law, stability=True)
-    assert even.report["stability"]["verdict"] == "unstable"
-    with pytest.warns(asperity.InputWarning, match="flat"):
-        left = asperity.solve(np.zeros(64), 1.0, modulus=1.0, mean_gap=0.011, law=law, leave=True)
-    assert left.report["stability"]["verdict"] == "stable" and left.report["departures"][0]["energy_drop"] > 0
 
 
 def test_the_table_and_the_html_say_how_it_ended(rough, law):

@@ -21,8 +21,10 @@ def tip():
 
 
 @pytest.fixture(scope="module")
-def table(tip):
-    return asperity.TipTable(tip, approaches=(-5e-9, 1.6e-9), modulus=1e9, law=LAW, steps=25)
+def table(tip, tmp_path_factory):
+    file = tmp_path_factory.mktemp("tip") / "tip.npz"
+    tip.save(file)
+    return asperity.TipTable(file, approaches=(-5e-9, 1.6e-9), modulus=1e9, law=LAW, steps=25)
 
 
 @pytest.mark.filterwarnings("ignore:hardness")
@@ -112,7 +114,7 @@ def test_a_sphere_on_a_thin_layer_is_one_on_springs(base, poisson):
 def test_a_table_of_a_paraboloid_is_that_of_maugis():
     tip = asperity.surface.paraboloid(64, 28e-9, radius=RADIUS)
     law = asperity.MaugisDugdale(work_of_adhesion=1.5 * WORK, range=2 * LENGTH)
-    table = asperity.TipTable(tip, approaches=(-4e-9, 3e-9), modulus=MODULUS, law=law, works=18, steps=25)
+    table = asperity.TipTable(tip, approaches=(-4e-9, 3e-9), modulus=MODULUS, law=law, works=12, steps=15)
     for spring in (None, 20.0):
         fit = asperity.fit_curve(*curve(0.5, spring), tip=table, spring_stiffness=spring)
         assert fit.modulus.value == pytest.approx(MODULUS, rel=0.02)
