@@ -64,18 +64,6 @@ fn with_adhesion_the_spots_conduct_and_the_slope_of_the_law_does_not() {
 }
 
 #[test]
-fn a_sphere_conducts_as_holm_says() {
-    let bench = Bench::new();
-    bench.said("surface --form paraboloid --radius 2 --size 128 --lengths 1 --quiet --out sphere.npz");
-    let solve = "solve --heights sphere.npz --boundary free --approach 0.04 --stiffness --resistivities 2 3";
-    let report = bench.reported(&format!("{solve} --no-pictures --out sphere"));
-    let holm = 4.0 * (2.0_f64 * 0.04).sqrt() / 5.0; // 4a/(ρ₁ + ρ₂), a² = Rδ
-    let found = &report["conductance"];
-    assert!((found["whole"].as_f64().unwrap() / holm - 1.0).abs() < 0.02, "{found} {holm}");
-    assert!(found["relative_error"].is_null());
-}
-
-#[test]
 fn percolation_is_told_with_its_constriction() {
     let bench = Bench::new();
     bench.said(ROUGH);

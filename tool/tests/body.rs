@@ -55,11 +55,9 @@ fn a_body_without_its_parameters_is_refused() {
     let bench = rough();
     for (arguments, parts) in [
         ("--poisson 0.3", &["--poisson is 0.3", "half-space", "--modulus", "--layer", "--coating"][..]),
-        ("--layer 0.1", &["--layer needs --poisson"]),
         ("--coating 0.1 --poisson 0.3", &["--coating needs --coating-modulus"]),
         ("--layer 0.1 --poisson 0.3 --coating-poisson 0.2", &["--coating-poisson is 0.2", "leave it out"]),
         ("--coating 0.1 --coating-modulus 2 --coating-poisson 0.2 --poisson 0.3 --base bonded", &["--base is bonded"]),
-        ("--layer 0.1 --poisson 0.3 --boundary free", &["--layer has no free boundary"]),
         ("--layer 0.1 --poisson 0.6", &["--poisson", "at most 0.5"]),
         ("--layer=-1 --poisson 0.3", &["--layer"]),
     ] {
@@ -67,13 +65,4 @@ fn a_body_without_its_parameters_is_refused() {
     }
     let told = bench.refused(&format!("{PRESSED} --base sliding --out none"));
     assert!(told.contains("--base is sliding") && told.contains("or give --layer, a thickness"), "{told}");
-}
-
-#[test]
-fn a_body_that_is_thin_beside_the_nodes_is_named() {
-    let bench = rough();
-    let output = bench.run(&format!("{PRESSED} --layer 2e-3 --poisson 0.3 --quiet --out thin"));
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert!(error.starts_with("warning: thin-body: half the wavelength is "), "{error}");
-    assert_eq!(bench.report("thin")["warnings"][0]["code"], "thin-body");
 }

@@ -27,25 +27,6 @@ fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 }
 
 #[test]
-fn a_sphere_is_held_by_a_force_by_its_approach_and_by_a_spring() {
-    let bench = Bench::new();
-    bench.said(TIP);
-    let solved = bench.reported("solve --heights tip.npz --boundary free --normal-force 5e-3 --no-pictures --out a");
-    assert_eq!((&solved["boundary"], &solved["control"]), (&"free".into(), &"normal-force".into()));
-    assert!(number(&solved["edge_traction"]) < 1e-3 && solved["absent_nodes"] == 0, "{solved}");
-    let approach = number(&solved["approach"]);
-    let position = approach + 5e-3 / 0.1;
-    for again in [
-        format!("run a/scene.toml --approach {approach} --out b"),
-        format!("run a/scene.toml --spring-stiffness 0.1 --spring-position {position} --out c"),
-        "run c/scene.toml --normal-force 5e-3 --out d".to_owned(),
-    ] {
-        let again = bench.reported(&again);
-        assert!((number(&again["normal_force"]) / 5e-3 - 1.0).abs() < 1e-4, "{again}");
-    }
-}
-
-#[test]
 fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
     let bench = Bench::new();
     let made = bench.reported("surface --form flat-punch --radius 0.3 --size 48 --out punch.npz");
@@ -170,16 +151,8 @@ fn loads_that_a_boundary_does_not_have_are_refused_on_one_line() {
     bench.said("surface --form flat-punch --radius 0.3 --size 16 --quiet --out punch.npz");
     let before = bench.names("");
     for (arguments, parts) in [
-        ("solve --heights tip.npz --approach 0.1 --out x", vec!["approach", "--boundary free"]),
-        ("solve --heights tip.npz --boundary free --mean-gap 0.1 --out x", vec!["mean gap", "--boundary periodic"]),
-        ("solve --heights tip.npz --spring-stiffness 1 --out x", vec!["--spring-position"]),
         ("solve --heights tip.npz --spring-position 1 --out x", vec!["--spring-stiffness"]),
         ("solve --heights tip.npz --spring-stiffness -1 --spring-position 0 --out x", vec!["is -1", "positive"]),
-        (
-            "solve --heights tip.npz --normal-force 1 --mean-pressure 1 --out x",
-            vec!["--normal-force", "cannot be used with"],
-        ),
-        ("solve --heights punch.npz --normal-force 1 --out x", vec!["missing", "--fill", "--absent-missing"]),
         ("solve --heights punch.npz --absent-missing --mean-gap 1 --out x", vec!["mean-gap", "absent nodes"]),
         ("sweep --heights tip.npz --approaches 0,1 --out x.csv", vec!["approach", "--boundary free"]),
         ("cycle --heights tip.npz --boundary free --mean-gaps 0,1 --out x.csv", vec!["mean gap"]),

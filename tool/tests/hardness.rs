@@ -215,35 +215,3 @@ fn a_study_varies_the_hardness() {
     let depths = column(&bench, "study.csv", "plastic_depth_max");
     assert!(depths[..2].iter().all(|depth| *depth > 0.0) && depths[2..] == [0.0; 2]);
 }
-
-#[test]
-fn numbers_with_units_are_in_the_si() {
-    let bench = Bench::new();
-    bench.said("surface --size 48 --lengths 10um --k-s 6 --rms-slope 0.2 --seed 3 --quiet --out heights.npz");
-    let run = "solve --heights heights.npz --modulus 200GPa --mean-pressure 500MPa --hardness 2GPa";
-    let report = bench.reported(&format!("{run} --out r"));
-    assert_eq!((number(&report["hardness"]), &report["given"]["hardness"]), (2e9, &"2GPa".into()));
-    assert_eq!(field(&bench, "r/contact_pressure").fold(0.0, |most: f64, p| most.max(*p)), 2e9);
-    let said = bench.said(&format!("{run} --out again"));
-    for line in ["yielded ", "greatest plastic depth ", "plastic work per area "] {
-        assert!(said.contains(line), "{said}");
-    }
-}
-
-#[test]
-fn a_steep_surface_that_is_pressed_asks_for_a_hardness() {
-    let bench = Bench::new();
-    bench.said("surface --size 64 --k-s 6 --rms-slope 0.8 --seed 3 --quiet --out steep.npy");
-    let codes = |options: &str| {
-        let output = bench.run(&format!("solve --heights steep.npy --mean-pressure 0.05 {options} --force --out r"));
-        assert_eq!(output.status.code(), Some(0), "{options}");
-        let report = bench.report("r");
-        let warnings = report["warnings"].as_array().unwrap().clone();
-        warnings.iter().map(|told| told["code"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
-    };
-    assert_eq!(codes(""), ["steep", "hardness"]);
-    assert_eq!(codes("--hardness 0.5"), ["steep"]);
-    // most of the load is borne by less than a tenth of the modulus
-    bench.said("surface --size 64 --k-s 6 --rms-slope 0.1 --seed 3 --force --quiet --out steep.npy");
-    assert_eq!(codes(""), Vec::<String>::new());
-}

@@ -60,77 +60,26 @@ fn assert_complementary(gap: &Array2<f64>, pressure: &Array2<f64>) {
 }
 
 #[test]
-fn adhesion_adds_contact_and_tells_if_it_is_under_resolved() {
-    let bench = paraboloid();
-    for law in ["maugis-dugdale", "exponential"] {
-        let options = format!("--mean-gap 0.0429 --law {law} --work-of-adhesion 1e-4");
-        let bare = bench.solve("--mean-gap 0.0429 --force", "bare", 0);
-        let arguments = format!("solve --heights heights.npy {options} --range 4e-3 --out {law}");
-        let output = bench.run(&arguments);
-        assert_eq!((output.status.code(), said(&output)), (Some(0), String::new()));
-        let sticky = bench.report(law);
-        assert_eq!(sticky["law"], *law);
-        assert_eq!((number(&sticky, "work_of_adhesion"), number(&sticky, "range")), (1e-4, 4e-3));
-        assert_close(number(&sticky, "mu_rho"), (1e-4_f64 / 64.0).sqrt() / 4e-3, 1e-12);
-        assert!(number(&sticky, "contact_nodes") > number(&bare, "contact_nodes"));
-        assert!(number(&sticky, "adhesive_energy") < 0.0);
-        // The contact pressure is the full pressure plus the traction, which is w/rho where there is no gap.
-        let [gap, pressure, contact] = FIELDS.map(|name| bench.field(&format!("{law}/{name}")));
-        assert_complementary(&gap, &contact);
-        let inside = gap.iter().zip(&pressure).zip(&contact).filter(|((g, _), _)| **g == 0.0);
-        inside.for_each(|((_, p), c)| assert!((c - p - 1e-4 / 4e-3).abs() < 1e-9));
-        assert!(pressure.iter().any(|p| *p < -1e-3));
-
-        let output = bench.run(&format!("solve --heights heights.npy {options} --range 1e-3 --out {law} --force"));
-        let warning = text(&output.stderr);
-        let parts = ["mu_rho = 1.25", "use jkr"];
-        assert!(parts.iter().all(|part| warning.contains(part)), "{warning}");
-        assert_eq!(bench.report(law)["under_resolved"], true);
-    }
-}
-
-#[test]
-fn nested_grids_give_the_same_and_say_what_they_took() {
+fn nested_grids_are_told_and_are_the_default_where_they_pay() {
     let bench = Bench::new();
     let wavy = Surface::from_fn(Grid::square(256, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
     write_npy(bench.path("heights.npy"), wavy.unwrap().heights()).unwrap();
-    for load in ["--mean-pressure 0.02", "--mean-gap 0.01"] {
-        let single = bench.solve(&format!("{load} --no-pictures --force --nested --no-nested"), "single", 0);
-        let nested = bench.solve(&format!("{load} --no-pictures --force --nested"), "nested", 0);
-        assert_close(number(&nested, "mean_gap"), number(&single, "mean_gap"), 1e-5);
-        assert_close(number(&nested, "mean_pressure"), number(&single, "mean_pressure"), 1e-5);
-        assert_close(number(&nested, "contact_nodes"), number(&single, "contact_nodes"), 1e-3);
-        assert_eq!((&single["levels"], &single["equivalent_applications"]), (&Value::Null, &Value::Null));
-
-        let grids = nested["levels"].as_array().unwrap();
-        let shapes: Vec<_> = grids.iter().map(|grid| &grid["shape"]).collect();
-        assert_eq!(shapes, [&json!([64, 64]), &json!([128, 128]), &json!([256, 256])]);
-        assert!(grids.iter().all(|grid| grid["status"] == "converged"));
-        let counts: Vec<_> = grids.iter().map(|grid| number(grid, "operator_applications")).collect();
-        // the report counts the solve on the finest grid, without the one that makes the problem
-        assert_eq!(counts[2], number(&nested, "operator_applications") + 1.0);
-        let equivalent = counts[2] + counts[1] / 4.0 + counts[0] / 16.0;
-        assert_close(number(&nested, "equivalent_applications"), equivalent, 1e-12);
-        // the finest alone takes fewer than without a start
-        assert!(counts[2] < number(&single, "operator_applications"));
-    }
-    // the default is what is faster: at this size nested grids at a given pressure, and one grid at a given mean gap
-    let grids = |load: &str| {
-        bench.solve(&format!("{load} --no-pictures --force"), "default", 0)["levels"].as_array().map(Vec::len)
+    let shapes = |options: &str| {
+        let report = bench.solve(&format!("{options} --no-pictures --force"), "solved", 0);
+        let levels = report["levels"].as_array().map(|levels| levels.iter().map(|grid| grid["shape"][0].clone()));
+        (levels.map(Iterator::collect::<Vec<_>>), report["equivalent_applications"].is_f64())
     };
-    assert_eq!([grids("--mean-pressure 0.02"), grids("--mean-gap 0.01")], [Some(3), None]);
+    let (three, one) = ((Some(vec![json!(64), json!(128), json!(256)]), true), (None, false));
+    // at this size nested grids are faster at a given pressure, and one grid at a given mean gap
+    assert_eq!(["--mean-pressure 0.02", "--mean-gap 0.01"].map(shapes), [three.clone(), one.clone()]);
+    assert_eq!(
+        ["--mean-pressure 0.02 --nested --no-nested", "--mean-gap 0.01 --nested"].map(shapes),
+        [one, three.clone()]
+    );
     // the law of JKR leads to one that the finest grid resolves; where that does not, coarser ones are not used
-    for (range, grids) in [("1.5e-3", 3), ("1e-3", 1)] {
-        let sticky = format!("--law exponential --work-of-adhesion 1e-4 --range {range}");
-        let report = bench.solve(&format!("--mean-gap 0.02 --nested {sticky} --force"), "sticky", 0);
-        assert_eq!(report["levels"].as_array().unwrap().len(), grids, "{range}");
-    }
-
-    let refused =
-        bench.run("solve --heights heights.npy --mean-gap 0.02 --nested --initial-gap single/gap.npy --out no");
-    let error = text(&refused.stderr);
-    assert_eq!((refused.status.code(), error.lines().count()), (Some(1), 1), "{error}");
-    assert!(error.contains("--nested") && error.contains("--initial-gap"), "{error}");
+    let sticky = "--mean-gap 0.02 --nested --law exponential --work-of-adhesion 1e-4 --range";
+    let alone = (Some(vec![json!(256)]), true);
+    assert_eq!(["1.5e-3", "1e-3"].map(|range| shapes(&format!("{sticky} {range}"))), [three, alone]);
 }
 
 #[test]

@@ -129,25 +129,6 @@ fn hertz_at_a_mean_gap_and_at_the_pressure_it_takes() {
     assert_eq!(back["contact_nodes"], 61);
 }
 
-#[test]
-fn both_methods_and_both_precisions_agree() {
-    let bench = paraboloid();
-    let paper = bench.solve("--mean-gap 0.0398 --method rey2017", "paper", 0);
-    assert_eq!((&paper["method"], &paper["contact_nodes"]), (&"rey2017".into(), &61.into()));
-    assert!(number(&paper, "relative_error") <= 1e-6);
-    let single = bench.solve("--mean-gap 0.0398 --precision f32 --tolerance 1e-3", "single", 0);
-    assert_eq!((&single["precision"], &single["contact_nodes"]), (&"f32".into(), &61.into()));
-    assert_close(number(&single, "mean_pressure"), 1.831421e-4, 1e-3);
-    for name in FIELDS {
-        assert!(bench.bytes(&format!("paper/{name}")).windows(3).any(|w| w == b"<f8"));
-        assert!(bench.bytes(&format!("single/{name}")).windows(3).any(|w| w == b"<f4"));
-    }
-    assert_complementary(&bench.field("single/gap.npy"), &bench.field("single/contact_pressure.npy"));
-    // The tolerance that f32 has by default can be met where there is enough contact.
-    let default = bench.solve("--mean-gap 0.02 --precision f32", "default", 0);
-    assert_eq!(number(&default, "tolerance"), 1e-4);
-}
-
 /// A .npy file of a square array.
 fn npy(dtype: &str, fortran: bool, n: usize, data: Vec<u8>) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };
@@ -188,16 +169,6 @@ fn every_file_format_gives_the_same_answer() {
             );
         }
     }
-}
-
-#[test]
-fn a_given_start_saves_iterations() {
-    let bench = paraboloid();
-    let first = bench.solve("--mean-pressure 2e-4 --no-pictures", "first", 0);
-    let second = bench.solve("--mean-pressure 2e-4 --no-pictures --initial-gap first/gap.npy", "second", 0);
-    assert!(number(&second, "iterations") < 0.5 * number(&first, "iterations"));
-    assert_eq!(second["contact_nodes"], first["contact_nodes"]);
-    assert_eq!((&second["initial_gap"], &first["initial_gap"]), (&"first/gap.npy".into(), &Value::Null));
 }
 
 #[test]
