@@ -1,6 +1,6 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::{Given, Key, Quantities, Skin, Typed};
+use asperity_scene::{Adhesion, Given, Key, Quantities, Skin, Typed, key};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -39,7 +39,11 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
             let shape = value
                 .getattr("shape")
                 .map_or_else(|_| "a list of lists".to_owned(), |shape| format!("an array of shape {shape}"));
-            let map = if key == "work_of_adhesion" { "; for a map give law=asperity.Varying(law, works)" } else { "" };
+            let map = if key == key!(Adhesion, work_of_adhesion) {
+                "; for a map give law=asperity.Varying(law, works)"
+            } else {
+                ""
+            };
             return Err(PyTypeError::new_err(format!(
                 "{key} is {shape}: it must be one value, or a list of them{map}"
             )));

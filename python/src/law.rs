@@ -7,7 +7,7 @@ use std::sync::Arc;
 use asperity::adhesion::{Formula, Values, check_functions};
 use asperity::{AdhesionLaw, adhesion};
 use asperity_scene::numbers::plain;
-use asperity_scene::{Adhesion, Key, Measured, Quantities, Scalar, Skin, Wall, dimension_of_key};
+use asperity_scene::{Adhesion, Key, Measured, Quantities, Scalar, Skin, Wall, dimension_of_key, key};
 use numpy::ndarray::ArrayD;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
@@ -219,7 +219,7 @@ pub fn read_law(py: Python<'_>, path: PathBuf) -> PyResult<Table<'_>> {
 #[pyfunction]
 pub fn cut_off(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<(Law, f64)> {
     let Law { formula, adhesion, mut given } = Law::some(law)?;
-    let distance = given.read("cut_off", distance)?;
+    let distance = given.read(key!(Adhesion, cut_off), distance)?;
     if formula.is_cut_off() {
         return Err(PyValueError::new_err("the law is cut off already: give the law itself"));
     }
@@ -233,7 +233,7 @@ pub fn cut_off(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<(Law, f64)
 #[pyfunction]
 pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
     let Law { formula, adhesion, mut given } = Law::some(law)?;
-    given.texts.retain(|(key, _)| key != "work_of_adhesion");
+    given.texts.retain(|(key, _)| key != key!(Adhesion, work_of_adhesion));
     if AdhesionLaw::<f64>::hints(&formula).shape.is_some() {
         return Err(PyValueError::new_err("the law varies already: give the law itself"));
     }

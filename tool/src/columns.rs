@@ -2,7 +2,7 @@
 
 use asperity_scene::column::{MEAN_PRESSURE, NORMAL_FORCE};
 use asperity_scene::legs::value;
-use asperity_scene::{Account, Measure, key};
+use asperity_scene::{Account, Adhesion, Measure, key};
 use serde_json::Value;
 
 use crate::quantity::{ENERGY, ENERGY_PER_AREA};
@@ -42,7 +42,9 @@ impl<'a> Columns<'a> {
     /// The measure of a column.
     fn measure(&self, name: &str) -> Measure {
         match Measure::of(name, self.control, false) {
-            Measure::Of(ENERGY_PER_AREA) if self.area.is_some() && name != "work_of_adhesion" => Measure::Of(ENERGY),
+            Measure::Of(ENERGY_PER_AREA) if self.area.is_some() && name != key!(Adhesion, work_of_adhesion) => {
+                Measure::Of(ENERGY)
+            }
             other => other,
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Grid};
 use asperity_plot::{Chart, Paper, Picture};
 use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
-use asperity_scene::{Inputs, Kind, key, keys};
+use asperity_scene::{Account, Inputs, Kind, key, keys};
 use serde_json::{Value, json};
 
 use crate::command::Call;
@@ -224,7 +224,8 @@ impl Found<'_> {
             return Ok(None);
         }
         let known = if on_line { Units::default() } else { self.units.clone() };
-        let names = known.columns(&["nodes", "area", "perimeter", "normal_force"], "", on_line);
+        let names =
+            known.columns(&["nodes", "area", key!(Account, perimeter), key!(Account, normal_force)], "", on_line);
         // a step at each area, from the largest on
         let count = |(k, area): (usize, f64)| [(area, k.max(1) as f64), (area, (k + 1) as f64)];
         let extent = if on_line { "length" } else { "area" };

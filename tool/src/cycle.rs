@@ -163,7 +163,7 @@ impl Followed<'_> {
     }
 
     fn imbalance(&self) -> f64 {
-        self.rows.last().map_or(0.0, |last| value(last, "imbalance"))
+        self.rows.last().map_or(0.0, |last| value(last, key!(Step, imbalance)))
     }
 
     /// The greatest work on the way, as at the end the work is that of the jumps alone, and the row that has it.
@@ -194,7 +194,13 @@ impl Followed<'_> {
             Value::Object(found)
         };
         let [tension, force] = [MEAN_PRESSURE, NORMAL_FORCE].map(|name| -self.least(name));
-        let of_cycle = ["work", "dissipated", "plastic_energy", "imbalance", "work_error"];
+        let of_cycle = [
+            key!(Step, work),
+            key!(Step, dissipated),
+            key!(Account, plastic_energy),
+            key!(Step, imbalance),
+            key!(Step, work_error),
+        ];
         let mut found = Map::from_iter([
             ("greatest_tension".to_owned(), json!((tension > 0.0).then_some(tension))),
             ("greatest_tensile_force".to_owned(), json!((tension > 0.0).then_some(force))),
@@ -237,7 +243,7 @@ impl Followed<'_> {
         }
         let share = 100.0 * (self.imbalance() / most).abs();
         let of = columns.number("work", columns.value(greatest, "work").abs());
-        let imbalance = told(last, "imbalance");
+        let imbalance = told(last, key!(Step, imbalance));
         lines.push(format!("imbalance of energy     {imbalance}, {share:.1} % of the greatest work on the way, {of}"));
         lines
     }

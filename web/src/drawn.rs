@@ -1,8 +1,8 @@
 //! Charts and colours, as in the pictures of the program.
 
 use asperity_plot::{Chart, Colouring, DPI, Paper};
-use asperity_scene::LAWS;
 use asperity_scene::outcome::Outcome;
+use asperity_scene::{Adhesion, LAWS, key};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -17,7 +17,7 @@ pub fn about() -> Value {
             "repels": law.repels,
         })
     };
-    let files = |law: &&asperity_scene::Law| law.needs.contains(&"law_table");
+    let files = |law: &&asperity_scene::Law| law.needs.contains(&key!(Adhesion, law_table));
     let laws: Vec<_> = LAWS.iter().filter(|found| !files(found)).map(law).collect();
     let [sequential, diverging] = [Colouring::Sequential, Colouring::Diverging].map(|scale| scale.steps().concat());
     let contact = Colouring::Contact.steps();

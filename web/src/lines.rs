@@ -1,6 +1,6 @@
 //! The lines that repeat what a page has done, in a shell and in Python, and the scene of the program.
 
-use asperity_scene::{GridKeys, Key, Keys, RoughnessKeys};
+use asperity_scene::{Elastic, GridKeys, Key, Keys, RoughnessKeys, key};
 use serde_json::{Map, Value};
 
 /// The file of the surface.
@@ -100,7 +100,7 @@ impl Origin {
             lines.insert(1, "import numpy".to_owned());
             rest.push(format!("start=numpy.load({})[\"heights\"]", quoted(START)));
         }
-        if !typed.contains_key("modulus") {
+        if !typed.contains_key(key!(Elastic, modulus)) {
             rest.push("modulus=1.0".to_owned());
         }
         let given = keywords(typed.iter());

@@ -48,11 +48,6 @@ impl Part {
         self.is_mirrored.then_some(if self.is_whole { "whole" } else { "original" })
     }
 
-    /// Whether a field may be of the original alone.
-    pub fn has_original(&self) -> bool {
-        self.original.is_some()
-    }
-
     /// The original, if results are of it.
     pub fn wanted(&self) -> Option<Original> {
         self.original.filter(|_| !self.is_whole)
