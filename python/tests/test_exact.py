@@ -28,16 +28,6 @@ def test_one_load_gives_numbers():
     assert isinstance(contact.pressure(0.0), float)
 
 
-def test_maugis_is_between_jkr_and_dmt():
-    sphere = exact.MaugisDugdale(2.0, 1.0, 1e-4, 2e-3)
-    assert np.isclose(sphere.tabor_parameter, 1.36, atol=5e-3)
-    assert 1.5 < -sphere.pull_off().load / (np.pi * 1e-4 * 2.0) < 2.0
-    loads = np.linspace(0.9 * sphere.pull_off().load, 1e-3, 5)
-    assert np.allclose(
-        sphere.at_contact_radius(sphere.at_load(loads).contact_radius).load, loads, rtol=1e-9, atol=1e-14
-    )
-
-
 def test_waves():
     wave = exact.WavyLine(0.01, 1.0, 1.0)
     half = wave.at_mean_pressure([0.0, 0.5 * wave.closing_pressure]).half_width

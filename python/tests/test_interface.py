@@ -40,12 +40,6 @@ def test_the_table_and_its_files_are_those_of_the_tool(tmp_path, tool, rough):
         law.write(tmp_path / "law", "ansys")
 
 
-def test_the_slope_is_the_stiffness_to_its_error(rough):
-    law = asperity.interface(rough, modulus=1.0, mean_pressures=[0.01, 0.0101], tolerance=1e-9).columns
-    slope = np.diff(law["mean_pressure"]) / np.diff(law["closure"])
-    assert slope == pytest.approx(law["contact_stiffness"].mean(), rel=law["stiffness_error"].max())
-
-
 def test_an_interface_travels_between_processes(tmp_path, rough):
     law = asperity.interface(rough, leakage=1e-3, **PRESSED)
     other = pickle.loads(pickle.dumps(law))
@@ -66,45 +60,6 @@ def test_units_are_told(tmp_path):
     assert "*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n** electrical_conductance [S/m2], mean_pressure [Pa]\n" in text
     stiffness, conductance = law.columns["contact_stiffness"], law.columns["electrical_conductance"]
     assert np.allclose(conductance, 2 * stiffness / (1e9 * 41e-9), rtol=1e-12)
-
-
-def test_the_conductance_of_a_report_is_that_of_the_solution(rough):
-    pressed = {"modulus": 2.0, "mean_pressure": 0.02, "stiffness": True}
-    solution = asperity.solve(rough, resistivities=(1.0, 3.0), nested=True, **pressed)
-    found = solution.report["conductance"]
-    assert found["value"] == pytest.approx(solution.conductance((1.0, 3.0)).per_area, rel=1e-4)
-    assert found["whole"] == pytest.approx(4.0 * found["value"], rel=1e-12)
-    assert found["relative_error"] == solution.report["stiffness_error"]
-    law = asperity.Exponential(1e-4, 2e-2)
-    sticky = asperity.solve(rough, law=law, conductivities=(1.0, 1 / 3), **pressed)
-    found = sticky.report["conductance"]
-    assert found["value"] == pytest.approx(sticky.conductance((1.0, 3.0)).per_area, rel=1e-9)
-    assert found["relative_error"] is None and found["conductivities"] == [1.0, 1 / 3]
-
-
-@pytest.mark.parametrize(
-    ("given", "error", "message"),
-    [
-        ({"resistivities": (1.0, 2.0)}, ValueError, "resistivities needs stiffness=True"),
-        ({"resistivities": (-1.0, 2.0), "stiffness": True}, ValueError, "resistivities is -1.0: it must be a number, zero or"),
-        ({"resistivities": 1.0, "stiffness": True}, ValueError, "resistivities is 1.0: it must be two values"),
-        (
-            {"resistivities": (1.0, 1.0), "conductivities": (1.0, 1.0), "stiffness": True},
-            ValueError,
-            "resistivities and conductivities are both given",
-        ),
-        (
-            {"conductivities": (1.0, 1.0), "stiffness": True, "body": asperity.Layer(0.1, 0.3)},
-            ValueError,
-            "half-spaces alone: leave it out, or layer",
-        ),
-    ],
-)
-def test_what_does_not_conduct_is_refused(rough, given, error, message):
-    with pytest.raises(error, match=message):
-        asperity.solve(rough, modulus=1.0, mean_pressure=0.01, **given)
-    with pytest.raises(ValueError, match="leakage is 2.0: it must be a share"):
-        asperity.sweep(rough, leakage=2.0, **PRESSED)
 
 
 def test_an_interface_has_rows_that_converged_and_no_pressure_with_adhesion(rough, tmp_path):

@@ -114,20 +114,6 @@ def test_without_a_wall_the_law_keeps_the_surfaces_apart(rough):
             asperity.solve(rough, **options, **given)
 
 
-def test_without_a_wall_surfaces_come_off_and_unstable_ones_part():
-    wave = 0.02 * np.cos(2 * np.pi * np.arange(128) / 128)
-    options = {"modulus": 1.0, "law": asperity.Morse(3e-3, 1e-2), "wall": "none"}
-    cycle = asperity.cycle(wave, 1.0, mean_gaps=[0.08, 0.01, 0.1], steps=10, smallest_step=1e-3, **options)
-    assert [event["event"] for event in cycle.events] == ["jump-in", "jump-out"]
-    assert (cycle.columns["mean_pressure"] < 0).any() and (cycle.columns["status"] == "converged").all()
-    # nearly flat ones, where the slope of the traction exceeds the softest stiffness
-    options["law"] = asperity.LennardJones(3e-3, 1e-2)
-    with pytest.warns(asperity.InputWarning, match="range"):
-        left = asperity.solve(5e-3 * wave, 1.0, mean_gap=1e-2 * np.log(4), leave=True, **options)
-    (departure,) = left.report["departures"]
-    assert departure["eigenvalue"] < 0 < departure["energy_drop"] and left.report["stability"]["verdict"] == "stable"
-
-
 def test_a_work_of_adhesion_may_differ_from_node_to_node(rough):
     works = np.where(np.arange(64)[:, None] < 32, 0.0, W) * np.ones((64, 64))
     options = {"modulus": 1.0, "mean_pressure": 1e-3}
