@@ -69,11 +69,11 @@ record! {
     ) {
         /// Command.
         command: &'static str = command,
-        /// How the solve ended: `converged`, `stalled`, `iteration-limit`, `detached` or `stopped`.
+        /// End of the solve: `converged`, `stalled`, `iteration-limit`, `detached` or `stopped`.
         status: Status = report.status,
         /// With adhesion, the branch of the start.
         branch: Option<Branch> = report.branch,
-        /// Equilibrium on the other branch, if both were asked for.
+        /// Equilibrium on the other branch, by `branch` `both`.
         other_branch: Option<OtherBranch> = found.other_branch.clone(),
         /// Certified relative error in the energy norm.
         relative_error: f64 as Error = report.relative_error,
@@ -81,11 +81,11 @@ record! {
         load_error: f64 as Error = report.load_error,
         /// Quantity compared with the tolerance: `energy-norm`, the certified error, or `complementarity`.
         criterion: Criterion = report.criterion,
-        /// Number of iterations; with nested grids, on the finest one.
+        /// Iterations, on the finest of nested grids.
         iterations: usize = report.iterations,
-        /// Number of operator applications, each a forward and an inverse transform; with nested grids, on the finest one.
+        /// Operator applications, each a forward and an inverse transform, on the finest of nested grids.
         operator_applications: usize = report.operator_applications,
-        /// Nested grids, the finest last, if they were used.
+        /// Nested grids, the finest last.
         levels: Option<Vec<GridLevel>> = found.levels.as_ref().map(|all| all.iter().map(GridLevel::of).collect()),
         /// Operator applications on all nested grids, in units of one on the finest.
         equivalent_applications: Option<f64> = found.equivalent_applications,
@@ -103,31 +103,31 @@ record! {
         mean_pressure: f64 [PRESSURE] = report.mean_pressure,
         /// Normal force F = p̄·Lx·Ly, compression positive.
         normal_force: f64 [FORCE] = report.normal_force,
-        /// With a free boundary, and where one is held over a layer or a coating, how far the bodies have moved towards
-        /// each other since they would first touch undeformed.
+        /// With a free boundary, or a given approach of a layer or a coating, the way of the bodies towards each other
+        /// since first touch without deformation.
         approach: Option<f64> [LENGTH] = report.approach.or(held(report.control)),
-        /// Stiffness of a spring, if the load is one.
+        /// Stiffness of a spring as the load.
         spring_stiffness: Option<f64> [FORCE_PER_LENGTH] = stiffness(report.control),
         /// Load of the fields: mean contact pressure less mean adhesive traction.
         net_pressure: f64 [PRESSURE] = report.net_pressure,
         /// Mean contact pressure.
         mean_contact_pressure: f64 [PRESSURE] = report.mean_contact_pressure,
-        /// Share of the nodes in contact, absent nodes not counted.
+        /// Share of the nodes in contact, without absent nodes.
         contact_fraction: f64 as Share = report.contact_fraction,
         /// Number of nodes in contact.
         contact_nodes: usize = report.contact_nodes,
-        /// Number of absent nodes, at which nothing faces the half-space.
+        /// Number of absent nodes.
         absent_nodes: usize = report.absent_nodes,
-        /// With a free boundary, the largest traction on the outermost nodes, as a share of the largest anywhere. Unless the
-        /// body ends there, a value above 0.001 means that the map of the heights is too small.
+        /// With a free boundary, the largest traction on the outermost nodes over the largest anywhere: above 0.001 the map
+        /// is too small, unless the body ends there.
         edge_traction: Option<f64> as Share = report.edge_traction,
         /// With `law` `jkr`, the contact fraction by the adhesive energy, −E_adh/w, which is too large.
         adhesive_contact_fraction: Option<f64> as Share = report.adhesive_contact_fraction,
-        /// With `law` `jkr`, the contact fraction by the adhesive energy less the process zone at the edges: the area of the
-        /// theory of JKR, which is the one to report with `jkr`.
+        /// With `law` `jkr`, the area of the theory of JKR, to be reported: the contact fraction by the adhesive energy, less
+        /// the process zone at the edges.
         jkr_contact_fraction: Option<f64> as Share = found.sight.jkr_contact_fraction,
-        /// Share of the area within the contact edge, which is located between the nodes. On rough surfaces it is some 5 to
-        /// 12 % too large if the shortest waves have 2 nodes, and 2 to 4 % with 3.
+        /// Share of the area within the contact edge, located between the nodes. On rough surfaces it is 5 to 12 % too large
+        /// with 2 nodes in the shortest waves, and 2 to 4 % with 3.
         corrected_contact_fraction: f64 as Share = f64::NAN,
         /// Length of the contact edge along the sides of the cells; on a line the number of its ends.
         perimeter: f64 [LENGTH] = f64::NAN,
@@ -135,7 +135,7 @@ record! {
         repulsive_fraction: f64 as Share = f64::NAN,
         /// Share of the nodes that pull without contact.
         attractive_fraction: f64 as Share = f64::NAN,
-        /// Where the work of adhesion has at most 16 values, the contact on the nodes of each.
+        /// Contact on the nodes of each of at most 16 works of adhesion.
         patches: Option<Vec<Patch>> = None,
         /// Least gap.
         min_gap: f64 [LENGTH] = report.min_gap,
@@ -158,37 +158,37 @@ record! {
         plastic_depth_mean: Option<f64> [LENGTH] = report.plastic.map(|plastic| plastic.depth_mean),
         /// With a hardness, the energy per area that yielding has dissipated.
         plastic_energy: Option<f64> [ENERGY_PER_AREA] = report.plastic.map(|plastic| plastic.energy),
-        /// Stability, if it was asked for.
+        /// Stability.
         stability: Option<Steadiness> = found.stability,
-        /// Contact stiffness dp̄/dδ, if it was asked for: how much the mean pressure grows as the bodies approach each other,
-        /// or as the mean gap falls. It equals the stiffness of a flat punch with the outline of the contact. Infinite where
-        /// all nodes are in contact; with adhesion it may be negative.
+        /// Contact stiffness dp̄/dδ, the slope of the mean pressure over the approach, or over minus the mean gap: the
+        /// stiffness of a flat punch with the outline of the contact. Infinite in full contact; with adhesion it may be
+        /// negative.
         contact_stiffness: Option<f64> [PRESSURE_PER_LENGTH] = found.stiffness.map(|found| found.pressure_per_length),
-        /// Relative error of the contact stiffness, with the estimated error of the grid; null where that is unknown.
+        /// Relative error of the contact stiffness, with the estimated error of the grid.
         stiffness_error: Option<f64> as Error = found.stiffness.and_then(|found| found.error()),
         /// Normal stiffness dF/dδ, with the contact stiffness.
         normal_stiffness: Option<f64> [FORCE_PER_LENGTH] = found.stiffness.map(|found| share * found.force_per_length),
-        /// Conductance, if it was asked for.
+        /// Conductance.
         conductance: Option<Conducted> = found.after.conductance,
-        /// Whether open nodes connect the sides, along `x` and `y`, if the percolation was asked for.
+        /// Whether open nodes connect the sides, along `x` and `y`, with the percolation.
         percolates: Option<Along<bool>> = found.after.percolates,
         /// Narrowest place of the widest passage along `x` and `y`, with the percolation.
         constriction: Option<Along<Option<Narrowest>>> = found.after.constriction,
-        /// Transmissivity along `x` and `y`, if it was asked for.
+        /// Transmissivity along `x` and `y`.
         transmissivity: Option<Along<Transmissivity>> = found.after.transmissivity,
-        /// Unstable equilibria that were left, if they were to be.
+        /// Unstable equilibria that were left.
         departures: Option<Vec<Left>> = found.departures.clone(),
         /// With `law` `jkr`, the traction in contact of the grid, 2w/ρ.
         peak_traction: Option<f64> [PRESSURE] = report.peak_traction,
         /// Resolution measure √(wΔx/E*)/ρ.
         mu_rho: f64 = report.mu_rho,
-        /// Where the work of adhesion varies, the node (ix, iy) with the largest.
+        /// Node (ix, iy) with the largest of varying works of adhesion.
         mu_rho_node: Option<(usize, usize)> = strongest,
-        /// Whether the resolution measure exceeds 0.5: the grid does not resolve the adhesion.
+        /// Whether `mu_rho` exceeds 0.5: the grid does not resolve the adhesion.
         under_resolved: bool = report.under_resolved,
         /// Warnings.
         warnings: Vec<Notice> = warnings,
-        /// Time of the solve in seconds, without files and pictures.
+        /// Time of the solve, without files and pictures.
         seconds: f64 as Seconds = found.seconds,
         /// Quantity that is held, for example `mean-gap`.
         control: &'static str = report.control.name(),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use asperity_scene::{KEYWORDS, Key, Skin, Values, worded};
 
-use self::written::check_written;
+use self::written::{check_written, table};
 
 /// The type of a keyword.
 fn annotation(key: &Key) -> String {
@@ -74,16 +74,17 @@ fn document() -> String {
     let mut text = String::from(
         "# Keys of a scene\n\nOptions of the program, keywords of Python and entries of scene files have these names, with \
          hyphens in options. Quantities are numbers in consistent units, or all have units. Python has no default of \
-         `modulus`. The table is made from the lists of keys in `crates/scene`.\n",
+         `modulus`.\n",
     );
     for (_, about, list) in KEYWORDS {
-        let _ = write!(text, "\n## {about}\n\n| Key | Unit | Default | Meaning |\n|---|---|---|---|\n");
-        for key in list {
+        let row = |key: &Key| {
             let unit = key.kind.dimension().map_or("", |dimension| dimension.si);
-            let help = worded(key.help.trim(), Skin::Keywords).replace('|', "\\|").replace('*', "\\*");
-            let default = key.kind.default.unwrap_or_default();
-            let _ = writeln!(text, "| `{}` | {unit} | {default} | {help} |", key.name);
-        }
+            let help = worded(key.help.trim(), Skin::Keywords).replace('|', "\\|");
+            let default = key.kind.default.map_or(String::new(), |default| format!(" [default: {default}]"));
+            vec![format!("`{}`", key.name), unit.to_owned(), help + &default]
+        };
+        let rows: Vec<_> = list.iter().map(row).collect();
+        let _ = write!(text, "\n## {about}\n{}", table(&["Key", "Unit", "Meaning"], &rows));
     }
     text
 }

@@ -142,9 +142,20 @@ fn table(numbers: &[&Number]) -> String {
         Measure::Seconds => "s",
         _ => "",
     };
-    let help = |number: &Number| number.help.trim().replace('|', "\\|").replace('*', "\\*");
-    let lines = numbers.iter().map(|number| format!("| `{}` | {} | {} |\n", number.name, unit(number), help(number)));
-    format!("\n| Key | Unit | Meaning |\n|---|---|---|\n{}", lines.collect::<String>())
+    let row = |number: &&Number| {
+        vec![format!("`{}`", number.name), unit(number).to_owned(), number.help.trim().replace('|', "\\|")]
+    };
+    written::table(&["Key", "Unit", "Meaning"], &numbers.iter().map(row).collect::<Vec<_>>())
+}
+
+/// The table of a table within a report, of its numbers that the report does not have itself, if it is of a solution.
+fn table_within(numbers: &[&Number], of_report: &[&Number]) -> String {
+    let is_solution = numbers.iter().any(|number| number.name == "status");
+    let is_repeated = |number: &&Number| is_solution && of_report.iter().any(|other| other.name == number.name);
+    let (repeated, own): (Vec<&Number>, Vec<&Number>) = numbers.iter().copied().partition(is_repeated);
+    let names: Vec<_> = repeated.iter().map(|number| format!("`{}`", number.name)).collect();
+    let repeated = if names.is_empty() { String::new() } else { format!("\nAs above: {}.\n", names.join(", ")) };
+    repeated + &if own.is_empty() { String::new() } else { table(&own) }
 }
 
 fn document() -> String {
@@ -152,10 +163,9 @@ fn document() -> String {
     let (columns, others): (Vec<_>, Vec<_>) = of_solve.iter().partition(|number| number.is_column());
     let of_row = select(&[Row::NUMBERS]).into_iter().filter(|number| number.name != "heights");
     let mut text = String::from(
-        "# Numbers of reports and tables\n\nA number has the same name and the same meaning in all [reports](reports.md), as a \
-         column of a table, and in Python. A number\nthat does not apply, or is not finite, is `null`. Numbers are in the \
-         units of this page if the input has units, and\notherwise in the units of the input. Fractions and relative errors \
-         are not in percent. The tables are made from the\nlists of numbers in `crates/scene`.\n",
+        "# Numbers of reports and tables\n\nA number has the same name and the same meaning in all [reports](reports.md), in \
+         columns\nof tables, and in Python. A number that does not apply, or is not finite, is `null`. Numbers are in the \
+         units of this page if\nthe input has units, and otherwise in the units of the input; none is in percent.\n",
     );
     for (heading, numbers) in [
         ("Of a solution and of tables", columns),
@@ -169,7 +179,7 @@ fn document() -> String {
     }
     text += "\nReports also have the [keys](keys.md) of the body, the law and the wall.\n\n## Tables within reports\n";
     for (_, key, numbers) in TABLES {
-        text += &format!("\n### {key}\n{}", table(&select(&[numbers])));
+        text += &format!("\n### {key}\n{}", table_within(&select(&[numbers]), &of_report()));
     }
     text
 }

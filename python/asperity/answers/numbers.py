@@ -237,8 +237,7 @@ class Numbers:
 
     @property
     def status(self) -> Status:
-        """How the solve ended: ``converged``, ``stalled``, ``iteration-limit``, ``detached`` or
-        ``stopped``."""
+        """End of the solve: ``converged``, ``stalled``, ``iteration-limit``, ``detached`` or ``stopped``."""
         return self._told["status"]
 
     @property
@@ -248,13 +247,12 @@ class Numbers:
 
     @property
     def iterations(self) -> int:
-        """Number of iterations; with nested grids, on the finest one."""
+        """Iterations, on the finest of nested grids."""
         return self._told["iterations"]
 
     @property
     def operator_applications(self) -> int:
-        """Number of operator applications, each a forward and an inverse transform; with nested grids, on the
-        finest one."""
+        """Operator applications, each a forward and an inverse transform, on the finest of nested grids."""
         return self._told["operator_applications"]
 
     @property
@@ -274,8 +272,8 @@ class Numbers:
 
     @property
     def approach(self) -> float | None:
-        """With a free boundary, and where one is held over a layer or a coating, how far the bodies have
-        moved towards each other since they would first touch undeformed. None where it does not apply."""
+        """With a free boundary, or a given approach of a layer or a coating, the way of the bodies towards
+        each other since first touch without deformation. None where it does not apply."""
         return self._told["approach"]
 
     @property
@@ -285,19 +283,18 @@ class Numbers:
 
     @property
     def contact_fraction(self) -> float:
-        """Share of the nodes in contact, absent nodes not counted."""
+        """Share of the nodes in contact, without absent nodes."""
         return self._told["contact_fraction"]
 
     @property
     def absent_nodes(self) -> int:
-        """Number of absent nodes, at which nothing faces the half-space."""
+        """Number of absent nodes."""
         return self._told["absent_nodes"]
 
     @property
     def edge_traction(self) -> float | None:
-        """With a free boundary, the largest traction on the outermost nodes, as a share of the largest
-        anywhere. Unless the body ends there, a value above 0.001 means that the map of the heights is too
-        small. None where it does not apply."""
+        """With a free boundary, the largest traction on the outermost nodes over the largest anywhere: above
+        0.001 the map is too small, unless the body ends there. None where it does not apply."""
         return self._told["edge_traction"]
 
     @property
@@ -312,10 +309,9 @@ class Numbers:
 
     @property
     def contact_stiffness(self) -> float | None:
-        """Contact stiffness dp̄/dδ, if it was asked for: how much the mean pressure grows as the bodies
-        approach each other, or as the mean gap falls. It equals the stiffness of a flat punch with the
-        outline of the contact. Infinite where all nodes are in contact; with adhesion it may be negative.
-        None where it does not apply."""
+        """Contact stiffness dp̄/dδ, the slope of the mean pressure over the approach, or over minus the mean
+        gap: the stiffness of a flat punch with the outline of the contact. Infinite in full contact; with
+        adhesion it may be negative. None where it does not apply."""
         return self._told["contact_stiffness"]
 
     @property

@@ -202,7 +202,7 @@ record! {
         imbalance: f64 [ENERGY_PER_AREA] = found.imbalance,
         /// Standard error of `work`, and over a closed cycle of the energy dissipated.
         work_error: f64 [ENERGY_PER_AREA] = found.work_error,
-        /// Event on the way to the state: `touch`, `jump-in`, `jump-out`, `pull-off`, `bifurcation` or `limit-point`.
+        /// Event before the state: `touch`, `jump-in`, `jump-out`, `pull-off`, `bifurcation` or `limit-point`.
         event: Option<&'static str> = found.event.as_ref().map(Event::name),
         /// Energy that the jump of the event dissipates, per area.
         energy_drop: Option<f64> [ENERGY_PER_AREA] = found.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop),

@@ -16,11 +16,11 @@ record! {
         value: f64 = found.per_area,
         /// Conductance of the whole map, or of the original of a mirrored one.
         whole: f64 = share * found.whole,
-        /// Relative error, with the estimated error of the grid; none where that is unknown.
+        /// Relative error, with the estimated error of the grid.
         relative_error: Option<f64> as Error = relative_error,
-        /// Resistivities of both bodies, if they are given.
+        /// Resistivities of both bodies.
         resistivities: Option<(f64, f64)> = if let Conductors::Electrical(pair) = conductors { Some(pair) } else { None },
-        /// Conductivities of both bodies, if they are given.
+        /// Conductivities of both bodies.
         conductivities: Option<(f64, f64)> = if let Conductors::Thermal(pair) = conductors { Some(pair) } else { None },
         /// The conductors.
         #[serde(skip)]

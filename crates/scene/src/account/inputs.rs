@@ -13,13 +13,13 @@ record! {
     Inputs of (scene: &Scene, shape: (usize, usize), lengths: (f64, f64), threads: usize) {
         /// File of the heights.
         heights: Option<String> = None,
-        /// File of the heights on the other side, or a word for them, if there are any.
+        /// File of the heights on the other side, or a word for them.
         against: Option<String> = None,
         /// Shift of the heights on the other side along x and y.
         shift: Option<(f64, f64)> = None,
         /// File of the gap from which the solve started, or a word for it.
         initial_gap: Option<String> = None,
-        /// Part of a mirrored map that results are of, `original` or `whole`.
+        /// Part of a mirrored map with results, `original` or `whole`.
         part: Option<String> = None,
         /// Nodes that were solved, if results are of fewer.
         solved_shape: Option<(usize, usize)> = None,
@@ -30,11 +30,11 @@ record! {
         /// The rms slopes of the surface.
         #[serde(flatten)]
         slopes: Slopes = Slopes::default(),
-        /// Unit of lengths, if it is known.
+        /// Unit of lengths.
         length_unit: Option<String> = None,
-        /// Unit of pressures, if it is known.
+        /// Unit of pressures.
         pressure_unit: Option<String> = None,
-        /// Quantities as they were typed, if they have units.
+        /// Quantities with units, as they were typed.
         given: Option<Value> = None,
         /// The elastic body.
         #[serde(flatten)]

@@ -20,33 +20,34 @@ record! {
         accurate: Result<&AccuratePullOff<T>, &str>,
         goal: Option<Goal>,
     ) {
-        /// Greatest tension that the surfaces bore, over the area of the map; none if no state under a tension was found.
+        /// Greatest tension that the surfaces bore, over the area of the map; none without a state under a tension.
         pull_off_pressure: Option<f64> [PRESSURE] = is_borne(report).then_some(-report.mean_pressure),
         /// Force of the greatest tension.
         pull_off_force: Option<f64> [FORCE] = is_borne(report).then_some(-report.normal_force),
-        /// With `law` `jkr`, the pull-off in the limit of no range that the last state tells.
+        /// With `law` `jkr`, the pull-off in the limit of no range.
         limit_pressure: Option<f64> [PRESSURE] = accurate.ok().and_then(|found| found.limit),
         /// Force of the pull-off in the limit of no range.
         limit_force: Option<f64> [FORCE] = accurate.ok()
             .and_then(|found| Some(found.limit? * report.normal_force / report.mean_pressure)),
-        /// Estimated relative error of the limit, if a coarser grid tells it.
+        /// Estimated relative error of the limit, by a coarser grid.
         limit_error: Option<f64> as Error = accurate.ok().and_then(|found| found.error.ok()).map(|error| error.relative),
         /// Why the limit has no error.
         limit_reason: Option<String> = reason(accurate),
-        /// Key of the pull-off to report: the limit if it has an error, otherwise the pull-off pressure, and none where a few nodes bear the tension.
+        /// Key of the pull-off to report: the limit if it has an error, otherwise the pull-off pressure; none where a few
+        /// nodes bear the tension.
         to_report: Option<&'static str> = to_report(accurate, report),
-        /// Relative error that was asked for, if one was.
+        /// Relative error that was asked for.
         accuracy: Option<f64> = accurate.ok().and(goal).map(|goal| goal.accuracy),
         /// Whether a finer grid could be taken.
         #[serde(skip)]
         refinable: bool = accurate.is_ok_and(|found| found.refinable),
-        /// Least tension under which the surfaces came apart, from a state within `rtol` of it if `reached`.
+        /// Least tension under which the surfaces came apart.
         lost_pressure: Option<f64> [PRESSURE] = found.lost,
-        /// Whether the two tensions are within the tolerance.
+        /// Whether both tensions are within `rtol` of each other.
         reached: bool = found.reached && accurate.map_or(true, |found| found.reached),
         /// Relative tolerance.
         rtol: f64 = asked.tolerance,
-        /// Mean pressure to which the surfaces were pressed before; none where they were pressed flat, or as `branch` says.
+        /// Mean pressure before the pull-off; none after full contact, or as `branch` says.
         preload: Option<f64> = asked.preload,
         /// Branch of the first solve, unless its start was given.
         branch: Option<Branch> = found.branch,

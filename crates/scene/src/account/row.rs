@@ -23,7 +23,7 @@ record! {
         /// The account, complete.
         #[serde(flatten)]
         account: Account = account.clone(),
-        /// In the table of an interface, the approach of the mean planes since first touch.
+        /// In tables of an interface, the approach of the mean planes since first touch.
         closure: Option<f64> [LENGTH] = touch.map(|touch| touch - account.mean_gap),
         /// Number of separate contacts.
         clusters: usize = sizes.len(),

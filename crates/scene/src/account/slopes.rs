@@ -10,8 +10,8 @@ record! {
     /// The rms slopes of the surface that a solve presses, of the sum where two surfaces face each other.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
     Slopes of (rms_slope: Option<f64>, differences: Option<f64>, nodes_per_wave: Option<f64>) {
-        /// Rms slope of the waves of the surface, to which a reduced pressure refers; none where the surface does not repeat
-        /// itself, or has absent nodes.
+        /// Rms slope of the waves of the surface, to which a reduced pressure refers; none without a period, or with absent
+        /// nodes.
         rms_slope: Option<f64> = rms_slope,
         /// Rms slope from differences between neighbouring nodes, to which warnings refer; none with absent nodes.
         rms_slope_differences: Option<f64> = differences,

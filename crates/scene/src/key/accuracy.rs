@@ -14,14 +14,13 @@ keys! {
     /// The accuracy to reach, from which tolerance and grid follow.
     AccuracyKeys {
         "Solver" {
-            /// Relative error to reach, such as 0.01: chooses the tolerance, solves on coarser grids too, and
-            /// interpolates the surface on finer ones until the estimated error is small enough; the results are on the
-            /// finest grid
+            /// Relative error to reach, such as 0.01: chooses the tolerance, and interpolates the surface on finer
+            /// grids until the estimated error is small enough; the results are on the finest grid
             accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"])
                 .excludes(&["initial_gap", "nested", "no_nested", "stability", "leave"]),
             /// Quantity that has the accuracy [default: area]
             accuracy_of: Option<String> = Kind::word(quantities, &["QUANTITY"]).needs(&["accuracy"]),
-            /// Memory that {accuracy} may take, in GiB [default: all that is free]
+            /// Memory for {accuracy}, in GiB [default: all that is free]
             memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
     }
@@ -31,8 +30,8 @@ keys! {
     /// The search for a pull-off.
     PullOffKeys {
         "Load" {
-            /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed
-            /// flat, unless {branch} or {initial_gap} says otherwise
+            /// Mean pressure to which surfaces from afar were pressed before; without it they were pressed flat, unless
+            /// {branch} or {initial_gap} says otherwise
             preload: Option<f64> = Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
             /// Relative tolerance of the pull-off
             rtol: Option<f64> = Kind::number(Range::SHARE, &["T"]).or("0.02"),
@@ -41,7 +40,7 @@ keys! {
             /// Relative error of the pull-off to reach, such as 0.05, with the law jkr: interpolates the surface on
             /// finer grids until the estimated error is small enough
             accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
-            /// Memory that {accuracy} may take, in GiB [default: all that is free]
+            /// Memory for {accuracy}, in GiB [default: all that is free]
             memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
     }
@@ -51,12 +50,12 @@ keys! {
     /// The accuracy of a cycle.
     CycleAccuracyKeys {
         "Solver" {
-            /// Relative error of the limit of no range to reach, such as 0.1, with the law jkr: solves the cycle on coarser
-            /// grids first, and on finer ones until the error that is to be expected is small enough
+            /// Relative error of the limit of no range to reach, such as 0.1, with the law jkr: solves the cycle on
+            /// finer and finer grids until the expected error is small enough
             accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
             /// Quantity that has the accuracy [default: work]
             accuracy_of: Option<String> = Kind::word(of_cycles, &["QUANTITY"]).needs(&["accuracy"]),
-            /// Memory that {accuracy} may take, in GiB [default: all that is free]
+            /// Memory for {accuracy}, in GiB [default: all that is free]
             memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
     }

@@ -20,31 +20,30 @@ keys! {
         "Adhesion" {
             /// Adhesion law, over the gap g; asperity laws lists the parameters and the source of each
             law: Option<String> = Kind::word(laws, &["LAW"]).or("none"),
-            /// Work of adhesion, an energy per area; all that jkr needs
+            /// Work of adhesion; all that jkr needs
             work_of_adhesion: Option<f64> = Kind::quantity(ENERGY_PER_AREA, Range::NON_NEGATIVE, &["W"]),
-            /// Range of adhesion, a length; for lennard-jones and van-der-waals the distance of the surfaces in contact
+            /// Range of adhesion; for lennard-jones and van-der-waals the distance of the surfaces in contact
             range: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["RHO"]),
             /// Exponent of the energy of a power law
             exponent: Option<f64> = Kind::number(Range::POSITIVE, &["N"]),
-            /// Hamaker's constant of van-der-waals, an energy
+            /// Hamaker's constant of van-der-waals
             hamaker: Option<f64> = Kind::quantity(ENERGY, Range::POSITIVE, &["A"]),
             /// Table of a law: lines of a gap, rising from 0, and a traction, attraction positive, the last one 0
             law_table: Option<PathBuf> = Kind::file(),
-            /// Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion
+            /// Gap at which a law without an end is cut off, smoothly and with all of its work of adhesion
             cut_off: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["D"]),
-            /// Work of adhesion at each node, instead of one for all, in a file with a format and the shape of the
-            /// heights
+            /// Work of adhesion at each node, in a file with a format and the shape of the heights
             work_of_adhesion_map: Option<PathBuf> = Kind::file(),
             /// What keeps the surfaces apart: a rigid wall, the repulsion of lennard-jones or morse alone, or springs
             wall: Option<Wall> = Kind::word(Wall::words, &["WALL"]).or("hard"),
-            /// Stiffness of the springs of a penalty or uzawa wall, a pressure per length
+            /// Stiffness of the springs of a penalty or uzawa wall
             wall_stiffness: Option<f64> = Kind::quantity(PRESSURE_PER_LENGTH, Range::POSITIVE, &["K"]),
         }
         "Body" {
-            /// Hardness, the greatest contact pressure: where it is reached, the surface yields and stays flattened
+            /// Hardness, the greatest contact pressure, at which the surface yields and stays flattened
             hardness: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["H"]),
-            /// Hardness at each node, instead of one for all, in a file with a format and the shape of the heights; in
-            /// Pa if other numbers have units
+            /// Hardness at each node, in a file with a format and the shape of the heights; in Pa if other numbers have
+            /// units
             hardness_map: Option<PathBuf> = Kind::file(),
         }
     }

@@ -9,12 +9,12 @@ keys! {
     /// The findings after a solution.
     FindingsKeys {
         "Output" {
-            /// Find out whether the solution is stable, and write its softest mode to mode.npy
+            /// Test whether the solution is stable, and write its softest mode to mode.npy
             stability: bool = Kind::switch().excludes(&["nested"]),
-            /// Continue from an unstable equilibrium to one that is not, and say how far the energy falls; implies
+            /// Continue from an unstable equilibrium to a stable one, and say how far the energy falls; implies
             /// {stability}
             leave: bool = Kind::switch().excludes(&["nested"]),
-            /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
+            /// Find the contact stiffness, the slope of the mean pressure over the approach
             stiffness: bool = Kind::switch(),
         }
     }
@@ -24,8 +24,8 @@ keys! {
     /// The contact stiffness of each row of a table.
     StiffnessKeys {
         "Output" {
-            /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean
-            /// pressure grows with the approach, and normal_stiffness, how much the force does
+            /// Find the contact stiffness under each load, in two more columns: contact_stiffness, the slope of the
+            /// mean pressure over the approach, and normal_stiffness, the slope of the force
             stiffness: bool = Kind::switch(),
         }
     }
@@ -36,7 +36,7 @@ keys! {
     ConductorKeys {
         "Output" {
             /// Electrical resistivities of both half-spaces: with {stiffness} these give the electrical conductance of
-            /// the contact per area, by Barber's identity, and its relative error, including the grid's
+            /// the contact per area, with its relative error
             resistivities: Vec<f64> = Kind::quantity(RESISTIVITY, Range::NON_NEGATIVE, &["R1", "R2"]).each()
                 .excludes(&["conductivities"]),
             /// Thermal conductivities of both half-spaces: the same for heat
@@ -60,8 +60,8 @@ keys! {
     LeakageKeys {
         "Output" {
             /// Enclose the transmissivity of the gap along x and y under each load between two bounds, like asperity
-            /// leak; in a table the columns are transmissivity_x_lower and so on. The value is the distance of the
-            /// bounds as a share of the upper one [default: 1e-3 if {leakage} has no value]
+            /// leak, in the columns transmissivity_x_lower and so on. The value is the distance of the bounds over the
+            /// upper one [default: 1e-3 if {leakage} has no value]
             leakage: Option<f64> = Kind::number(Range::SHARE, &["T"]).alone("1e-3"),
         }
     }

@@ -24,24 +24,24 @@ keys! {
             /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else
             /// 1 1]
             lengths: Vec<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
-            /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
+            /// Contact modulus E* = E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
             /// deforms
             modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]).or("1"),
             /// Surroundings of the map
             boundary: Option<Boundary> = Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"),
-            /// Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or
-            /// in a hole; in the files of results their gap is NaN and their pressures are 0
+            /// Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a
+            /// punch; in files of results their gap is NaN and their pressures are 0
             absent_missing: bool = Kind::switch(),
         }
         "Body" {
-            /// Thickness of an elastic layer on a rigid base, instead of a half-space; needs {poisson}
+            /// Thickness of an elastic layer on a rigid base; needs {poisson}
             layer: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["T"]).excludes(&["coating"]),
             /// Hold of the base on the layer: bonded, or sliding without friction [default: bonded]
             base: Option<Base> = Kind::word(|| Word::all(&["bonded", "sliding"]), &["BASE"]),
             /// Thickness of an elastic coating on the half-space; {modulus} then belongs to the substrate; needs
             /// {coating_modulus}, {coating_poisson} and {poisson}
             coating: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["T"]),
-            /// Contact modulus E/(1 - nu^2) of the coating, a pressure
+            /// Contact modulus E/(1 - nu^2) of the coating
             coating_modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Poisson's ratio of the coating
             coating_poisson: Option<f64> = Kind::number(Range::POISSON, &["NU"]),
@@ -52,16 +52,15 @@ keys! {
             poisson: Option<f64> = Kind::number(Range::POISSON, &["NU"]),
         }
         "Surface" {
-            /// Heights of the second surface, measured with its peaks up, with the same number of nodes and the same
-            /// sides; the program turns it over about the y axis, so that it faces the first one
+            /// Heights of the second surface, with its peaks up, on as many nodes and the same sides; the program turns
+            /// it over about the y axis, to face the first one
             against: Option<PathBuf> = Kind::file(),
             /// Contact modulus E/(1 - nu^2) of the second body, an elastic half-space [default: it is rigid]
             against_modulus: Option<f64> = Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Shift of the second surface along x and y, also by parts of a node [default: 0 0]; write negative ones
             /// with a unit as --shift=-1um,0um
             shift: Vec<f64> = Kind::quantity(LENGTH, Range::FINITE, &["X", "Y"]).from(1).commas().needs(&["against"]),
-            /// Give results on all nodes of a map that asperity prepare has mirrored; without it, fields, pictures,
-            /// contact and force belong to the original
+            /// Give results on all nodes of a map that asperity prepare has mirrored, instead of the original
             whole: bool = Kind::switch(),
         }
     }

@@ -8,27 +8,26 @@ keys! {
     /// The load of a solve, one of these.
     LoadKeys {
         "Load" {
-            /// Mean gap that is held, a length; with a periodic boundary
+            /// Mean gap, with a periodic boundary
             mean_gap: Option<f64> = Kind::quantity(LENGTH, Range::NON_NEGATIVE, &["G"]),
-            /// Mean external pressure that is held, over the area of the map, compression positive
+            /// Mean external pressure over the area of the map, compression positive
             mean_pressure: Option<f64> = Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
-            /// Normal force that is held, compression positive: the mean pressure times the area of the map
+            /// Normal force, compression positive: the mean pressure times the area of the map
             normal_force: Option<f64> = Kind::quantity(FORCE, Range::FINITE, &["F"]),
-            /// Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved
-            /// towards each other from the position of first touch without deformation; negative before it
+            /// Approach, with a free boundary or over a layer or a coating: the way of the bodies towards each other
+            /// since first touch without deformation; negative before it
             approach: Option<f64> = Kind::quantity(LENGTH, Range::FINITE, &["D"]),
-            /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
-            /// {spring_position}
+            /// Stiffness of a spring in series, such as a cantilever; needs {spring_position}
             spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_position"]),
-            /// Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z
-            /// - D); with a periodic one a mean gap, F = K (G - Z)
+            /// Position Z of the spring's far end, relative to the relaxed spring: with a free boundary an approach, F
+            /// = K (Z - D); with a periodic one a mean gap, F = K (G - Z)
             spring_position: Option<f64> = Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
-            /// Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)
+            /// Mean pressure over the contact modulus and the rms slope of the surface: p/(E* h'rms)
             reduced_pressure: Option<f64> = Kind::number(Range::FINITE, &["R"]),
-            /// Share of the nodes in contact to search for, to one node or 1 %. Without adhesion the search varies the
-            /// mean pressure, with adhesion the mean gap, and with adhesion and a free boundary the approach. If the
-            /// contact jumps past the share, the nearer side of the jump is written, and the exit code is 2
+            /// Share of the nodes in contact to search for, to one node or 1 %, by a mean pressure; with adhesion by a
+            /// mean gap, or with a free boundary by an approach. If the contact jumps past the share, the nearer side
+            /// of the jump is written, and the exit code is 2
             contact_fraction: Option<f64> = Kind::number(Range::SHARE, &["A"]).excludes(&["accuracy", "nested"]),
         }
     }
@@ -38,24 +37,22 @@ keys! {
     /// The loads of a table, a list of one kind.
     LoadsKeys {
         "Loads" {
-            /// Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log,
-            /// separated by commas
+            /// Mean gaps, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, separated by
+            /// commas
             mean_gaps: Vec<f64> = Kind::quantities(LENGTH, Range::NON_NEGATIVE),
             /// Mean external pressures over the area of the map, compression positive: a list like {mean_gaps}
             mean_pressures: Vec<f64> = Kind::quantities(PRESSURE, Range::FINITE),
             /// Normal forces, compression positive: a list like {mean_gaps}
             normal_forces: Vec<f64> = Kind::quantities(FORCE, Range::FINITE),
-            /// Approaches, with a free boundary or over a layer or a coating: how far the bodies have moved towards each
-            /// other from the position of first touch without deformation, negative before it; a list like {mean_gaps}. A
-            /// list that grows from a negative value begins with the bodies apart
+            /// Approaches since first touch without deformation, with a free boundary or over a layer or a coating: a
+            /// list like {mean_gaps}. A list that grows from a negative value begins with the bodies apart
             approaches: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE),
-            /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
-            /// {spring_positions}
+            /// Stiffness of a spring in series, such as a cantilever; needs {spring_positions}
             spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_positions"]),
-            /// Positions Z of the spring's far end, at which the spring is relaxed: with a free boundary approaches, F
-            /// = K (Z - D); with a periodic one mean gaps, F = K (G - Z); a list like {mean_gaps}. With a free boundary a
-            /// list that grows from a negative value begins with the bodies apart
+            /// Positions Z of the spring's far end, relative to the relaxed spring: a list like {mean_gaps}, with a
+            /// free boundary of approaches, F = K (Z - D), begun apart if it grows from a negative value; with a
+            /// periodic one of mean gaps, F = K (G - Z)
             spring_positions: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
             /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like
             /// {mean_gaps}
@@ -68,9 +65,8 @@ keys! {
     /// The contact fractions of a table.
     FractionsKeys {
         "Loads" {
-            /// Shares of the nodes in contact to search for: a list like {mean_gaps}. The load of each is found as by
-            /// asperity solve --contact-fraction, and the table has two more columns, wanted_contact_fraction and
-            /// reached
+            /// Shares of the nodes in contact to search for, as by asperity solve --contact-fraction: a list like
+            /// {mean_gaps}. The table has two more columns, wanted_contact_fraction and reached
             contact_fractions: Vec<f64> = Kind::numbers(Range::SHARE),
         }
     }

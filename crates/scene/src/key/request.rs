@@ -22,13 +22,13 @@ keys! {
     /// The steps of a cycle.
     PathKeys {
         "Loads" {
-            /// Least number of steps from one turning point to the next
+            /// Least number of steps between turning points
             steps: Option<usize> = Kind::whole(&["N"]).or("50"),
-            /// Step to which jumps are located, as a share of the way from one turning point to the next [default: until
-            /// the work of the step is known to a fifth of the energy that the jump dissipates]
+            /// Step to which jumps are located, as a share of the way between turning points [default: until the work
+            /// of the step is known to a fifth of the energy that the jump dissipates]
             smallest_step: Option<f64> = Kind::number(Range::POSITIVE, &["SHARE"]),
             /// Imbalance of energy that a step may have, as a share of the change of the energy so far and of twenty
-            /// times what jumps have dissipated; smaller jumps are not located one by one
+            /// times the energy dissipated in jumps; smaller jumps are not located one by one
             imbalance: Option<f64> = Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
         }
         "Adhesion" {

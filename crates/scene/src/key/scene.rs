@@ -76,11 +76,10 @@ keys! {
             precision: Option<Precision> = Kind::word(Precision::words, &["PRECISION"]).or("f64"),
             /// Threads; the results do not depend on it [default: one per core]
             threads: Option<usize> = Kind::threads(),
-            /// Equilibrium to find where adhesion has several: the equilibrium of surfaces pressed together from afar,
-            /// the equilibrium of surfaces pressed flat before, or with solve both [default: loading; unloading under a
-            /// tension or at a given mean gap]
+            /// Equilibrium to find where adhesion has several: of surfaces that come from afar, of surfaces pressed
+            /// flat before, or with solve both [default: loading; unloading under a tension or at a given mean gap]
             branch: Option<Branches> = Kind::word(Branches::words, &["BRANCH"]).excludes(&["initial_gap"]),
-            /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
+            /// Gap from which to start, in the shape of the heights; scaled to a given mean gap
             initial_gap: Option<PathBuf> = Kind::file(),
         }
     }

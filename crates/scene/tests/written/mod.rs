@@ -13,3 +13,15 @@ pub fn check_written<const N: usize>(list: &str, files: [(&str, String); N]) {
         assert!(found == text, "{file} differs from the {list}: UPDATE=1 cargo test -p asperity-scene --test {list}");
     }
 }
+
+/// A table of a document, without the columns in which nothing stands.
+pub fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
+    let columns: Vec<_> = (0..heads.len()).filter(|&column| rows.iter().any(|row| !row[column].is_empty())).collect();
+    let line = |cells: &[String]| {
+        let cells = columns.iter().map(|&column| format!(" {} |", cells[column].replace('*', "\\*")));
+        format!("|{}\n", cells.collect::<String>())
+    };
+    let heads: Vec<_> = heads.iter().map(|head| (*head).to_owned()).collect();
+    let rule = "---|".repeat(columns.len());
+    format!("\n{}|{rule}\n{}", line(&heads), rows.iter().map(|row| line(row)).collect::<String>())
+}
