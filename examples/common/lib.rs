@@ -2,10 +2,12 @@
 
 pub mod arguments;
 pub mod chart;
+mod draw;
 pub mod legend;
 pub mod memory;
 pub mod sharp;
 
+pub use draw::Draw;
 // what they share with the tests
 pub use oracles::{authors, outrun, published, rough};
 

@@ -4,12 +4,9 @@ use asperity::contact::ContactArea;
 use asperity::pull_off::FoundPullOff;
 use asperity::{Branch, Problem, PullOff, Result, Settings, Solution, Solver};
 
-/// The tolerance of solves, far below the error of the grid.
-pub const TOLERANCE: f64 = 1e-5;
-
-/// A solver to the tolerance of this example.
+/// A solver to a tolerance far below the error of the grid.
 pub fn solver() -> Solver {
-    Solver::new(Settings::default().tolerance(TOLERANCE))
+    Solver::new(Settings::default().tolerance(1e-5))
 }
 
 /// A solver that stays on the branch of loading.
@@ -19,11 +16,10 @@ pub fn loading() -> Solver {
     solver
 }
 
-/// The areas of a contact, as shares of the nominal area: by adhesive energy, less the process zone, and corrected.
-pub fn areas(solution: &Solution<f64>) -> Result<[f64; 3]> {
-    let area = ContactArea::of_solution(solution)?;
-    let [by_energy, less_zone] = [solution.report.adhesive_contact_fraction, area.jkr_contact_fraction];
-    Ok([by_energy.unwrap_or(f64::NAN), less_zone.unwrap_or(f64::NAN), area.corrected_contact_fraction])
+/// The areas of a contact, as shares of the nominal area: by adhesive energy, and less the process zone.
+pub fn areas(solution: &Solution<f64>) -> Result<[f64; 2]> {
+    let less_zone = ContactArea::of_solution(solution)?.jkr_contact_fraction;
+    Ok([solution.report.adhesive_contact_fraction, less_zone].map(|area| area.unwrap_or(f64::NAN)))
 }
 
 /// The pull-off to a relative width of the bracket, after a preload or from flat.
@@ -37,24 +33,19 @@ pub fn tension(found: &FoundPullOff<f64>) -> f64 {
     found.lost.map_or(borne, |lost| borne.midpoint(lost))
 }
 
-/// The value to which a grid and a grid of half as many nodes along the sides converge with the first order.
-pub fn extrapolate(fine: f64, coarse: f64) -> f64 {
-    2.0 * fine - coarse
+/// The powers of two from a first one to a last one.
+pub fn powers(first: usize, last: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(first), |n| Some(2 * n)).take_while(move |n| *n <= last)
 }
 
 /// Prints a title and the head of a table.
 pub fn head(title: &str, columns: &[&str]) {
-    println!("\n{title}\n");
-    println!("| {} |", columns.join(" | "));
-    println!("|{}", "---|".repeat(columns.len()));
+    println!("\n{title}\n\n| {} |\n|{}", columns.join(" | "), "---|".repeat(columns.len()));
 }
 
-/// Prints a row of a table.
-pub fn row(cells: &[String]) {
+/// Prints a row of a table: words, and ratios.
+pub fn row(words: &[&str], ratios: &[f64]) {
+    let ratios = ratios.iter().map(|ratio| format!("{ratio:.4}"));
+    let cells: Vec<_> = words.iter().map(|word| (*word).to_owned()).chain(ratios).collect();
     println!("| {} |", cells.join(" | "));
-}
-
-/// Cells of ratios.
-pub fn ratios<const N: usize>(values: [f64; N]) -> [String; N] {
-    values.map(|value| format!("{value:.4}"))
 }

@@ -58,20 +58,16 @@ fn main() -> Outcome<()> {
     let Arguments { table, quick, scenes, seed, kind, out } = arguments::read(include_str!("main.rs"));
     let wants = |one: Table| table.is_none_or(|table| table == one);
     if wants(Table::Sphere) {
-        sphere::table(quick)?;
+        sphere::table(if quick { 64 } else { 256 })?;
     }
     if wants(Table::Wave) {
-        wave::table(quick)?;
+        wave::table(if quick { 128 } else { 512 })?;
     }
     if wants(Table::Picture) {
-        std::fs::create_dir_all(&out)?;
-        picture::draw(quick, &out.join("pull-off.svg"))?;
+        picture::draw(if quick { [64; 2] } else { [512, 256] }, &out.join("pull-off.svg"))?;
     }
     if wants(Table::Kinds) {
         kinds::table(if quick { scenes.min(18) } else { scenes }, seed, kind.as_deref())?;
-        if kind.is_none() {
-            kinds::spheres(if quick { 6 } else { 60 })?;
-        }
     }
     Ok(())
 }

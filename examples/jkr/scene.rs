@@ -6,154 +6,89 @@ use asperity::accuracy::{Accuracy, AccuratePullOff, GridError, Quantity};
 use asperity::adhesion::{Formula, Varying};
 use asperity::nested::Level;
 use asperity::{
-    Amplitude, Boussinesq, Control, ElasticOperator, Grid, Jkr, Nested, PullOff, Result, SelfAffine, Settings, Solver,
-    Surface, Westergaard,
+    Amplitude, Boussinesq, Control, ElasticOperator, Grid, Jkr, Nested, PullOff, Result, SelfAffine, Solver, Surface,
+    Westergaard,
 };
-use common::Outcome;
+use common::{Draw, Outcome};
 use ndarray::Array2;
 
-use crate::case::TOLERANCE;
-
-/// The relative width of the bracket of a pull-off.
-pub const BRACKET: f64 = 3e-3;
+use crate::case::solver;
+use crate::sphere::SIDE;
 
 /// Asks for the error of the given grid.
 pub fn on_grid() -> Accuracy {
     Accuracy::new(f64::INFINITY, Quantity::Area)
 }
 
-/// The side of the window of spheres of radius one.
-pub const SIDE: f64 = 1.6;
-
-/// Numbers drawn one after the other, by SplitMix64.
-pub struct Draw(u64);
-
-impl Draw {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d))
-    }
-
-    /// From zero to one.
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        (bits >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, (low, high): (f64, f64)) -> f64 {
-        low + (high - low) * self.share()
-    }
-
-    /// A number with a uniform logarithm.
-    fn around(&mut self, (low, high): (f64, f64)) -> f64 {
-        low * (high / low).powf(self.share())
-    }
-}
-
-/// What is special about the body of a kind of scenes.
-#[derive(Clone, Copy, PartialEq)]
-enum Shape {
-    Rough,
-    OneWay,
-    LongCells,
-    Lattice,
-    Ridges,
-    Sphere,
-    WeakSphere,
-    RoughSphere,
-    Ellipsoid,
-    SphereToEdge,
-}
-
-/// A kind of scenes.
-#[derive(Clone, Copy)]
-pub struct Kind {
-    pub name: &'static str,
-    shape: Shape,
-    hurst: f64,
-    /// Ends of the work of adhesion in units of E* h'² times the shortest wave, and of the load in units of E* h'.
-    work: (f64, f64),
-    load: (f64, f64),
-    by_gap: bool,
-    patches: bool,
-}
-
-const ROUGH: Kind = Kind {
-    name: "rough, H 0.8",
-    shape: Shape::Rough,
-    hurst: 0.8,
-    work: (1e-3, 2e-2),
-    load: (3e-3, 0.1),
-    by_gap: false,
-    patches: false,
-};
-
-pub const KINDS: [Kind; 18] = [
-    ROUGH,
-    Kind { name: "rough, H 0.3", hurst: 0.3, ..ROUGH },
-    Kind { name: "rough, one way", shape: Shape::OneWay, ..ROUGH },
-    Kind { name: "rough, cells 2:1", shape: Shape::LongCells, ..ROUGH },
-    Kind { name: "rough, strong adhesion", work: (0.02, 0.1), ..ROUGH },
-    Kind { name: "rough, weak adhesion", work: (1e-6, 1e-4), ..ROUGH },
-    Kind { name: "rough, next to none", work: (1e-12, 1e-7), ..ROUGH },
-    Kind { name: "rough, light load", load: (3e-4, 3e-3), ..ROUGH },
-    Kind { name: "rough, nearly closed", load: (0.4, 0.9), ..ROUGH },
-    Kind { name: "rough, given gap", by_gap: true, ..ROUGH },
-    Kind { name: "rough, map of w", patches: true, ..ROUGH },
-    Kind { name: "lattice", shape: Shape::Lattice, ..ROUGH },
-    Kind { name: "ridges", shape: Shape::Ridges, ..ROUGH },
-    Kind { name: "sphere", shape: Shape::Sphere, ..ROUGH },
-    Kind { name: "sphere, weak adhesion", shape: Shape::WeakSphere, ..ROUGH },
-    Kind { name: "rough sphere", shape: Shape::RoughSphere, ..ROUGH },
-    Kind { name: "ellipsoid", shape: Shape::Ellipsoid, ..ROUGH },
-    Kind { name: "sphere to the edge", shape: Shape::SphereToEdge, ..ROUGH },
+/// The kinds of scenes: rough surfaces on a periodic half-space, and from the lattice on others, balls on a free one.
+pub const KINDS: [&str; 18] = [
+    "rough, H 0.8",
+    "rough, H 0.3",
+    "rough, one way",
+    "rough, cells 2:1",
+    "rough, strong adhesion",
+    "rough, weak adhesion",
+    "rough, next to none",
+    "rough, light load",
+    "rough, nearly closed",
+    "rough, given gap",
+    "rough, map of w",
+    "lattice",
+    "ridges",
+    "sphere",
+    "sphere, weak adhesion",
+    "rough sphere",
+    "ellipsoid",
+    "sphere to the edge",
 ];
 
 type Heights = Box<dyn Fn(Grid) -> Result<Surface>>;
 
-/// The errors that the library tells of quantities.
-type Errors = Vec<(Quantity, Option<GridError>)>;
-
 /// A scene of a kind.
 pub struct Scene {
+    kind: &'static str,
+    /// The nodes along x, and the nodes along y over them.
     pub n: usize,
-    lengths: (f64, f64),
-    /// The nodes along y over those along x.
     aspect: f64,
+    lengths: (f64, f64),
     heights: Heights,
     pub free: bool,
-    pub work: f64,
-    /// Whether the work of adhesion varies by squares of an eighth of the side.
-    patches: bool,
-    pub pressure: f64,
-    pub by_gap: bool,
+    work: f64,
+    pressure: f64,
 }
 
 impl Scene {
-    pub fn drawn(kind: &Kind, draw: &mut Draw) -> Self {
+    pub fn drawn(kind: &'static str, draw: &mut Draw) -> Self {
         let n = 64;
         let (seed, nodes_per_wave) = ((draw.share() * 1e9) as u64, draw.around((8.0, 16.0)));
         let (slope, k_l) = (draw.around((0.05, 1.0)), draw.between((1.0, 2.0)));
-        let (work, load, k_s) = (draw.around(kind.work), draw.around(kind.load), n as f64 / nodes_per_wave);
-        let roughness = SelfAffine::default().k_l(k_l).k_r(k_l).k_s(k_s).hurst(kind.hurst).seed(seed);
+        // in units of E* h'² times the shortest wave, and of E* h'
+        let work = draw.around(match kind {
+            "rough, strong adhesion" => (0.02, 0.1),
+            "rough, weak adhesion" => (1e-6, 1e-4),
+            "rough, next to none" => (1e-12, 1e-7),
+            _ => (1e-3, 2e-2),
+        });
+        let load = draw.around(match kind {
+            "rough, light load" => (3e-4, 3e-3),
+            "rough, nearly closed" => (0.4, 0.9),
+            _ => (3e-3, 0.1),
+        });
+        let (k_s, hurst) = (n as f64 / nodes_per_wave, if kind == "rough, H 0.3" { 0.3 } else { 0.8 });
+        let roughness = SelfAffine::default().k_l(k_l).k_r(k_l).k_s(k_s).hurst(hurst).seed(seed);
         let rough = roughness.amplitude(Amplitude::RmsSlope(slope));
         let scene = Self {
+            kind,
             n,
-            lengths: (1.0, 1.0),
             aspect: 1.0,
+            lengths: (1.0, 1.0),
             heights: Box::new(move |grid| rough.surface(grid)),
             free: false,
             work: work * slope * slope / k_s,
-            patches: kind.patches,
             pressure: load * slope,
-            by_gap: kind.by_gap,
         };
-        match kind.shape {
-            Shape::Rough => scene,
-            Shape::OneWay => {
+        match kind {
+            "rough, one way" => {
                 let heights: Heights = Box::new(move |grid| {
                     // the surface of a square, longer along y
                     let square = rough.surface(Grid::new(grid.shape(), (1.0, 1.0))?)?;
@@ -161,16 +96,15 @@ impl Scene {
                 });
                 Self { lengths: (1.0, draw.between((3.0, 6.0))), heights, ..scene }
             }
-            Shape::LongCells => Self { aspect: 0.5, ..scene },
-            Shape::Lattice => {
+            "rough, cells 2:1" => Self { aspect: 0.5, ..scene },
+            "lattice" => {
                 let periods = 1 + (3.0 * draw.share()) as usize;
                 let amplitude = slope / (2.0 * PI * periods as f64);
                 let heights: Heights = Box::new(move |grid| Surface::wave_2d(grid, amplitude, periods));
                 Self { work: work * slope * slope / periods as f64, heights, ..scene }
             }
-            Shape::Ridges => {
-                let [a, b] = [(0.3, 1.0), (0.0, 0.5)].map(|ends| draw.between(ends));
-                let phase = draw.between((0.0, 6.0));
+            "ridges" => {
+                let [a, b, phase] = [(0.3, 1.0), (0.0, 0.5), (0.0, 6.0)].map(|ends| draw.between(ends));
                 let heights: Heights = Box::new(move |grid| {
                     let (lx, _) = grid.lengths();
                     Surface::from_fn(grid, |x, _| {
@@ -180,26 +114,27 @@ impl Scene {
                 });
                 Self { work: 0.3 * work * slope * slope, heights, ..scene }
             }
-            shape => scene.ball(shape, roughness, draw),
+            ball if ball.contains("sphere") || ball == "ellipsoid" => scene.ball(roughness, draw),
+            _ => scene,
         }
     }
 
     /// A sphere, or an ellipsoid, on a free half-space.
-    fn ball(self, shape: Shape, roughness: SelfAffine, draw: &mut Draw) -> Self {
-        let (weak, edge) = (shape == Shape::WeakSphere, shape == Shape::SphereToEdge);
+    fn ball(self, roughness: SelfAffine, draw: &mut Draw) -> Self {
+        let (weak, edge) = (self.kind == "sphere, weak adhesion", self.kind == "sphere to the edge");
         let work = draw.around(if weak { (1e-12, 1e-6) } else { (3e-5, 4e-3) });
-        let ratio = if shape == Shape::Ellipsoid { draw.between((1.3, 3.0)) } else { 1.0 };
+        let ratio = if self.kind == "ellipsoid" { draw.between((1.3, 3.0)) } else { 1.0 };
         let [x0, y0] = [(); 2].map(|()| draw.between((-0.5, 0.5)) * SIDE / 32.0);
-        let rough = (shape == Shape::RoughSphere).then(|| {
+        let rough = (self.kind == "rough sphere").then(|| {
             let roughness = roughness.k_s(32.0 / draw.between((4.0, 8.0)));
             roughness.amplitude(Amplitude::RmsSlope(draw.around((0.02, 0.1))))
         });
         let pressure = (3.0 * (draw.share() - 0.5)).max(0.1) * 1.5 * PI * work / (SIDE * SIDE);
-        let shift = if edge { 0.25 * SIDE } else { 0.0 };
+        let (shift, width, aspect) = if edge { (0.25 * SIDE, 0.5 * SIDE, 2.0) } else { (0.0, SIDE, 1.0) };
         Self {
             n: 32,
-            lengths: if edge { (0.5 * SIDE, SIDE) } else { (SIDE, SIDE) },
-            aspect: if edge { 2.0 } else { 1.0 },
+            aspect,
+            lengths: (width, SIDE),
             free: true,
             work,
             pressure: if edge || weak { pressure + draw.around((1e-3, 0.1)) } else { pressure },
@@ -222,31 +157,40 @@ impl Scene {
         (self.heights)(Grid::new((nx, (nx as f64 * self.aspect) as usize), self.lengths)?)
     }
 
+    /// The law, by squares of an eighth of the side on a map of the work of adhesion.
     fn law(&self, grid: &Grid) -> Result<Formula> {
         let law: Formula = Jkr::new(self.work)?.into();
-        if !self.patches {
+        if self.kind != "rough, map of w" {
             return Ok(law);
         }
         let (nx, ny) = grid.shape();
-        let works =
-            Array2::from_shape_fn((nx, ny), |(i, j)| self.work * [1.0, 0.2, 0.0][(8 * i / nx + 8 * j / ny) % 3]);
-        Ok(std::sync::Arc::new(Varying::new(law, works.view())?))
+        let share = |(i, j)| [1.0, 0.2, 0.0][(8 * i / nx + 8 * j / ny) % 3];
+        Ok(std::sync::Arc::new(Varying::new(law, Array2::from_shape_fn((nx, ny), |at| self.work * share(at)).view())?))
     }
 
     fn body(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<f64>>> {
         Ok(if self.free { Box::new(Boussinesq::new(grid, 1.0)?) } else { Box::new(Westergaard::new(grid, 1.0)?) })
     }
 
-    /// The levels of nested grids, and the errors of the finest.
-    pub fn solve(&self, finer: usize, control: Control) -> Outcome<(Vec<Level>, Errors)> {
+    /// The load of all grids.
+    pub fn control(&self) -> Outcome<Control> {
+        let control = Control::MeanPressure(self.pressure);
+        if self.kind != "rough, given gap" {
+            return Ok(control);
+        }
+        Ok(Control::MeanGap(self.solve(1, control)?.0.mean_gap))
+    }
+
+    /// The finest level of nested grids, and its errors.
+    pub fn solve(&self, finer: usize, control: Control) -> Outcome<(Level, Vec<(Quantity, Option<GridError>)>)> {
         let surface = self.surface(finer)?;
-        let mut solver = Solver::new(Settings::default().tolerance(TOLERANCE));
         let nested = Nested::default().coarsest(16).closed(1.0).coarse_tolerance(GridError::COARSE_TOLERANCE);
         let law = self.law(surface.grid())?;
-        let found = nested.solve(&mut solver, &surface, |grid| self.body(grid), law, control)?;
+        let found = nested.solve(&mut solver(), &surface, |grid| self.body(grid), law, control)?;
         let report = &found.solution.report;
         let errors = GridError::of_all(&found.levels, report, surface.nodes_per_wave(report.boundary));
-        Ok((found.levels, errors.into_iter().filter(|(quantity, _)| quantity.name() != "stiffness").collect()))
+        let errors = errors.into_iter().filter(|(quantity, _)| quantity.name() != "stiffness").collect();
+        Ok((found.levels.last().cloned().ok_or("no grid")?, errors))
     }
 
     /// The pull-off, or nothing where there is none.
@@ -254,7 +198,7 @@ impl Scene {
         let surface = self.surface(finer)?;
         let law = self.law(surface.grid())?;
         let preload = if self.free { 0.0 } else { self.pressure };
-        let search = PullOff::default().tolerance(BRACKET).preload(Some(preload));
+        let search = PullOff::default().tolerance(3e-3).preload(Some(preload));
         let found = on_grid().pull_off(&mut Solver::default(), &surface, |grid| self.body(grid), law, &search);
         // surfaces that do not attract each other under no load have no pull-off
         Ok(found.ok().filter(|found| found.found.reached))

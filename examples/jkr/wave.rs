@@ -6,7 +6,7 @@ use asperity::exact::AdhesiveWavyLine;
 use asperity::{Control, Grid, Jkr, Problem, Result, Surface, Sweep, Westergaard};
 use common::Outcome;
 
-use crate::case::{areas, head, loading, pull_off, ratios, row, tension};
+use crate::case::{areas, head, loading, powers, pull_off, row, tension};
 
 /// The amplitude over the wavelength, and Johnson's parameter.
 const STEEPNESS: f64 = 0.01;
@@ -17,84 +17,43 @@ const BRACKET: f64 = 0.001;
 /// The preload of the search for the pull-off, over the same pressure.
 const PRELOAD: f64 = 0.3;
 
-/// A wave of a wavelength on a half-space of contact modulus one, with the work of adhesion of Johnson's parameter.
-struct Wave {
-    wavelength: f64,
-    /// Periods along the sides.
-    periods: (f64, f64),
-    grid: Grid,
-}
-
-impl Wave {
-    /// One period on a line.
-    fn line(n: usize) -> Result<Self> {
-        Ok(Self { wavelength: 1.0, periods: (1.0, 0.0), grid: Grid::line(n, 1.0)? })
-    }
-
-    /// So many periods along the sides of a cell with sides of one.
-    fn across(shape: (usize, usize), periods: (f64, f64)) -> Result<Self> {
-        Ok(Self { wavelength: periods.0.hypot(periods.1).recip(), periods, grid: Grid::new(shape, (1.0, 1.0))? })
-    }
-
-    fn amplitude(&self) -> f64 {
-        STEEPNESS * self.wavelength
-    }
-
-    fn work_of_adhesion(&self) -> f64 {
-        (ALPHA * PI * self.amplitude()).powi(2) / (2.0 * self.wavelength)
-    }
-
-    fn exact(&self) -> Result<AdhesiveWavyLine> {
-        AdhesiveWavyLine::new(self.amplitude(), self.wavelength, 1.0, self.work_of_adhesion())
-    }
-
-    fn problem(&self) -> Result<Problem<f64>> {
-        let (kx, ky) = (TAU * self.periods.0, TAU * self.periods.1);
-        let surface = Surface::from_fn(self.grid, |x, y| self.amplitude() * (kx * x + ky * y).cos())?;
-        Problem::new(&surface, Westergaard::new(self.grid, 1.0)?, Jkr::new(self.work_of_adhesion())?)
-    }
-
-    /// The areas by energy and less the process zone under the loads, over the exact ones.
-    fn areas(&self) -> Outcome<[Vec<f64>; 2]> {
-        let exact = self.exact()?;
-        let mut problem = self.problem()?;
-        let (mut solver, mut sweep, mut found) = (loading(), Sweep::default(), [Vec::new(), Vec::new()]);
-        for pressure in LOADS.map(|load| load * exact.closing_pressure()) {
-            let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(pressure))?;
-            let of_exact = 2.0 * exact.at_mean_pressure(pressure)?.half_width() / self.wavelength;
-            found.iter_mut().zip(areas(&solution)?).for_each(|(found, area)| found.push(area / of_exact));
-        }
-        Ok(found)
-    }
-
-    /// The pull-off over the exact one.
-    fn pull_off(&self) -> Outcome<f64> {
-        let exact = self.exact()?;
-        let found = pull_off(&mut self.problem()?, BRACKET, Some(PRELOAD * exact.closing_pressure()))?;
-        Ok(-tension(&found) / exact.pull_off()?.mean_pressure())
-    }
-}
-
-/// The largest distance of ratios from one on the way there, and back, and between both at the same load.
-fn distances(ratios: &[f64]) -> [f64; 3] {
+/// The errors of a wave with periods along the sides of a cell with sides of one, on a half-space of contact modulus one:
+/// the largest error of the area by energy on the way there, and back, the largest distance between both at the same
+/// load, and the pull-off over the exact one.
+fn errors(grid: Grid, (kx, ky): (f64, f64)) -> Outcome<[f64; 4]> {
+    let wavelength = kx.hypot(ky).recip();
+    let amplitude = STEEPNESS * wavelength;
+    let work = (ALPHA * PI * amplitude).powi(2) / (2.0 * wavelength);
+    let exact = AdhesiveWavyLine::new(amplitude, wavelength, 1.0, work)?;
+    let surface = Surface::from_fn(grid, |x, y| amplitude * (TAU * (kx * x + ky * y)).cos())?;
+    let problem = || Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, Jkr::new(work)?);
+    let (mut solver, mut sweep, mut problem, mut alone) = (loading(), Sweep::default(), problem()?, problem()?);
+    let mut area = |load: f64| {
+        let pressure = load * exact.closing_pressure();
+        let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(pressure))?;
+        let of_exact = 2.0 * exact.at_mean_pressure(pressure)?.half_width() / wavelength;
+        Ok(areas(&solution)?[0] / of_exact)
+    };
+    let ratios = LOADS.into_iter().map(&mut area).collect::<Result<Vec<_>>>()?;
     let largest = |ratios: &[f64]| ratios.iter().fold(0.0, |most: f64, ratio| most.max((ratio - 1.0).abs()));
-    let apart = (0..3).map(|i| ratios[6 - i] / ratios[i]).collect::<Vec<_>>();
-    [largest(&ratios[..4]), largest(&ratios[4..]), largest(&apart)]
+    let apart = [0, 1, 2].map(|i| ratios[6 - i] / ratios[i]);
+    let found = pull_off(&mut alone, BRACKET, Some(PRELOAD * exact.closing_pressure()))?;
+    let pull_off = -tension(&found) / exact.pull_off()?.mean_pressure();
+    Ok([largest(&ratios[..4]), largest(&ratios[4..]), largest(&apart), pull_off])
 }
 
-pub fn table(quick: bool) -> Outcome<()> {
+/// The table of waves on lines of up to so many nodes, and on grids with a quarter of them along a side.
+pub fn table(largest: usize) -> Outcome<()> {
     head(
         &format!(
             "Wave, α = {ALPHA}: largest errors of the area by energy there and back, at loads of {LOADS:?} p*, and pull-off \
              over the exact one"
         ),
-        &["wave", "nodes", "nodes a wave", "area there", "area back", "less the zone", "there − back", "pull-off"],
+        &["wave", "nodes", "area there", "area back", "there − back", "pull-off"],
     );
-    let mut waves = Vec::new();
-    for n in if quick { vec![64, 128] } else { vec![64, 128, 256, 512] } {
-        waves.push(("on a line", Wave::line(n)?));
-    }
-    for n in if quick { vec![32] } else { vec![64, 128] } {
+    let mut waves: Vec<_> =
+        powers(64, largest).map(|n| Ok(("on a line", Grid::line(n, 1.0)?, (1.0, 0.0)))).collect::<Result<_>>()?;
+    for n in powers(largest.min(256) / 4, largest / 4) {
         for (name, ny, periods) in [
             ("along x", n, (1.0, 0.0)),
             ("along y", n, (0.0, 1.0)),
@@ -103,19 +62,12 @@ pub fn table(quick: bool) -> Outcome<()> {
             ("along x, Δy = 2Δx", n / 2, (1.0, 0.0)),
             ("along y, Δy = 2Δx", n / 2, (0.0, 1.0)),
         ] {
-            waves.push((name, Wave::across((n, ny), periods)?));
+            waves.push((name, Grid::new((n, ny), (1.0, 1.0))?, periods));
         }
     }
-    for (name, wave) in &waves {
-        let [by_energy, less_zone] = wave.areas()?.map(|ratios| distances(&ratios));
-        let off = wave.pull_off()?;
-        let (nx, ny) = wave.grid.shape();
-        let mut cells = vec![(*name).to_owned(), format!("{nx} × {ny}")];
-        cells.push(format!("{:.0}", wave.wavelength / wave.grid.largest_spacing()));
-        cells.extend(ratios([by_energy[0], by_energy[1]]));
-        cells.push(ratios([less_zone[0], less_zone[1]]).join(", "));
-        cells.extend(ratios([by_energy[2], off]));
-        row(&cells);
+    for (name, grid, periods) in waves {
+        let (nx, ny) = grid.shape();
+        row(&[name, &format!("{nx} × {ny}")], &errors(grid, periods)?);
     }
     Ok(())
 }

@@ -33,24 +33,15 @@ const KINDS: [Kind; 5] = [
     ("lines", &[(64, 1), (1, 128), (256, 1)], (0.1, 1.0), (0.0, 1.5)),
 ];
 
-/// The next random number between 0 and 1, by SplitMix64.
-fn unit(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 /// A random map with square cells, and the longer side 1.
-fn surface((_, shapes, share, falls): Kind, state: &mut u64) -> Outcome<Surface> {
-    let mut between = |(low, high): (f64, f64)| low + (high - low) * unit(state);
-    let (nx, ny) = shapes[between((0.0, shapes.len() as f64)) as usize];
+fn surface((_, shapes, share, falls): Kind, draw: &mut Draw) -> Outcome<Surface> {
+    let (nx, ny) = shapes[draw.between((0.0, shapes.len() as f64)) as usize];
     let longest = nx.max(ny) as f64;
     let grid = Grid::new((nx, ny), (nx as f64 / longest, ny as f64 / longest))?;
-    let (share, falls) = (between(share), between(falls));
+    let (share, falls) = (draw.between(share), draw.between(falls));
     // no more than the waves of the share, each of a random phase
     let few = |n: usize| ((n as f64 * share).ceil() as usize).max(3).min(n);
-    let normal = || (-2.0 * (1.0 - unit(state)).ln()).sqrt() * (TAU * unit(state)).cos();
+    let normal = || (-2.0 * (1.0 - draw.share()).ln()).sqrt() * (TAU * draw.share()).cos();
     let mut heights = resample(Array2::from_shape_simple_fn((few(nx), few(ny)), normal), (nx, ny))?;
     for _ in 0..falls.round() as usize {
         // the mean of each node and its neighbours has a smaller share of shorter waves
@@ -76,17 +67,17 @@ pub fn measure(quick: bool) -> Outcome<()> {
     for kind in KINDS {
         // of estimated to true errors
         let mut ratios: [Vec<f64>; 4] = Default::default();
-        let mut state = 23;
+        let mut draw = Draw(23);
         for _ in 0..if quick { 4 } else { 60 } {
-            let surface = surface(kind, &mut state)?;
+            let surface = surface(kind, &mut draw)?;
             let solve = |control| {
                 let mut solver = Solver::new(Settings::default().tolerance(0.02 * NEVER));
                 let wanted = Accuracy::new(NEVER, Quantity::Area).memory(MEMORY);
                 let wanted = wanted.nested(wanted.nested.stiffness(STIFFNESS));
                 wanted.solve(&mut solver, &surface, half_space, NoAdhesion, control)
             };
-            let mut found = solve(Control::MeanPressure(SLOPE * 0.004 * 150_f64.powf(unit(&mut state))))?;
-            if unit(&mut state) < 0.4 {
+            let mut found = solve(Control::MeanPressure(SLOPE * 0.004 * 150_f64.powf(draw.share())))?;
+            if draw.share() < 0.4 {
                 found = solve(Control::MeanGap(found.solution.report.mean_gap))?;
             }
             let (levels, waves) = (&found.levels, surface.nodes_per_wave(Boundary::Periodic));
