@@ -53,7 +53,7 @@ fn main() -> Result<()> {
         for hardness in [0.3, 1.0, 3.0] {
             let name = format!("rough, hardness {hardness}");
             for control in [Control::MeanPressure(0.0125), Control::MeanPressure(0.1), Control::MeanGap(rms)] {
-                sum += of::<f64>(&name, &rough, NoAdhesion, Hardness::new(hardness)?, control)?;
+                sum += solve::<f64>(&name, &rough, NoAdhesion, Hardness::new(hardness)?, control)?;
             }
         }
         println!("{:<44} {sum:>6}", "sum");
@@ -61,38 +61,38 @@ fn main() -> Result<()> {
     }
     for pressure in [0.002, 0.0125, 0.2] {
         let load = Control::MeanPressure(pressure);
-        sum += of::<f64>("rough", &rough, NoAdhesion, Projection, load)?;
-        sum += of::<f64>("rough, bowed", &bowed, NoAdhesion, Projection, load)?;
+        sum += solve::<f64>("rough", &rough, NoAdhesion, Projection, load)?;
+        sum += solve::<f64>("rough, bowed", &bowed, NoAdhesion, Projection, load)?;
         sum += nested(&rough, load)?;
     }
     for gaps in [2.0, 1.0, 0.3] {
         let gap = Control::MeanGap(gaps * rms);
-        sum += of::<f64>("rough", &rough, NoAdhesion, Projection, gap)?;
-        sum += of::<f64>("rough, bowed", &bowed, NoAdhesion, Projection, gap)?;
+        sum += solve::<f64>("rough", &rough, NoAdhesion, Projection, gap)?;
+        sum += solve::<f64>("rough, bowed", &bowed, NoAdhesion, Projection, gap)?;
         sum += nested(&rough, gap)?;
     }
     for control in [Control::MeanPressure(0.002), Control::MeanPressure(0.02), Control::MeanGap(rms)] {
-        sum += of::<f64>("rough, weak adhesion", &rough, weak, Projection, control)?;
+        sum += solve::<f64>("rough, weak adhesion", &rough, weak, Projection, control)?;
     }
     for control in [Control::MeanPressure(0.01), Control::MeanGap(0.01), Control::MeanGap(0.03)] {
-        sum += of::<f64>("rough, strong adhesion", &rough, strong, Projection, control)?;
+        sum += solve::<f64>("rough, strong adhesion", &rough, strong, Projection, control)?;
     }
     for (law, control) in [(jump, Control::MeanGap(0.0429)), (jump, Control::MeanPressure(-1e-4))] {
-        sum += of::<f64>("sphere, Maugis-Dugdale", &sphere, law, Projection, control)?;
+        sum += solve::<f64>("sphere, Maugis-Dugdale", &sphere, law, Projection, control)?;
     }
     for control in [Control::MeanPressure(2e-3), Control::MeanGap(0.0398)] {
-        sum += of::<f64>("sphere", &sphere, NoAdhesion, Projection, control)?;
+        sum += solve::<f64>("sphere", &sphere, NoAdhesion, Projection, control)?;
     }
     for control in [Control::MeanPressure(0.01), Control::MeanPressure(0.05)] {
-        sum += of::<f64>("wave", &wave, NoAdhesion, Projection, control)?;
+        sum += solve::<f64>("wave", &wave, NoAdhesion, Projection, control)?;
     }
     for control in [Control::MeanPressure(0.02), Control::MeanGap(profile.rms_height())] {
-        sum += of::<f64>("line", &profile, NoAdhesion, Projection, control)?;
+        sum += solve::<f64>("line", &profile, NoAdhesion, Projection, control)?;
     }
-    sum += of::<f64>("rough, penalty", &rough, NoAdhesion, Penalty::new(500.0)?, Control::MeanPressure(0.0125))?;
-    sum += of::<f64>("rough, Uzawa", &rough, NoAdhesion, Uzawa::<f64>::new(500.0)?, Control::MeanPressure(0.0125))?;
-    sum += of::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanPressure(0.0125))?;
-    sum += of::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanGap(rms))?;
+    sum += solve::<f64>("rough, penalty", &rough, NoAdhesion, Penalty::new(500.0)?, Control::MeanPressure(0.0125))?;
+    sum += solve::<f64>("rough, Uzawa", &rough, NoAdhesion, Uzawa::<f64>::new(500.0)?, Control::MeanPressure(0.0125))?;
+    sum += solve::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanPressure(0.0125))?;
+    sum += solve::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanGap(rms))?;
     sum += sweep(&rough, weak)?;
     println!("{:<44} {sum:>6}", "sum");
     Ok(())
@@ -181,7 +181,7 @@ fn show(name: &str, control: Control, applications: usize, status: Status) -> us
     applications
 }
 
-fn of<T: Real>(
+fn solve<T: Real>(
     name: &str,
     surface: &Surface,
     law: impl AdhesionLaw<T> + 'static,

@@ -71,14 +71,14 @@ fn main() -> Outcome<()> {
         "p/E*", "adhesion", "area, %", "error", "gap, nm", "error", "certif.", "mu_rho", "applic.", "s"
     );
     if jkr {
-        return Row::of(&surface, Jkr::new(WORK_OF_ADHESION)?, PRESSURES[2], None).map(drop);
+        return Row::solve(&surface, Jkr::new(WORK_OF_ADHESION)?, PRESSURES[2], None).map(drop);
     }
     for pressure in PRESSURES {
-        rows.push(Row::of(&surface, NoAdhesion, pressure, None)?);
-        rows.push(Row::of(&surface, law, pressure, Some(Branch::Loading))?);
-        rows.push(Row::of(&surface, Jkr::new(WORK_OF_ADHESION)?, pressure, None)?);
+        rows.push(Row::solve(&surface, NoAdhesion, pressure, None)?);
+        rows.push(Row::solve(&surface, law, pressure, Some(Branch::Loading))?);
+        rows.push(Row::solve(&surface, Jkr::new(WORK_OF_ADHESION)?, pressure, None)?);
         if unloading {
-            rows.push(Row::of(&surface, law, pressure, Some(Branch::Unloading))?);
+            rows.push(Row::solve(&surface, law, pressure, Some(Branch::Unloading))?);
         }
     }
     areas(size, &rows);
@@ -136,7 +136,7 @@ struct Row {
 
 impl Row {
     /// Solves, and prints what was found.
-    fn of(
+    fn solve(
         surface: &Surface,
         law: impl AdhesionLaw<f64> + 'static,
         pressure: f64,

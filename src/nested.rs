@@ -228,7 +228,7 @@ impl Nested {
         let (mut levels, coarser) = self.solve_coarser(solver, surface, operators, law, control, &mut watch)?;
         let mut half_space = operators.on(finest)?;
         let wall = solver.constraint.wall();
-        let (rigid, touching) = (wall.is_rigid(), Touching::of(wall, &**law));
+        let (rigid, touching) = (wall.is_rigid(), Touching::new(wall, &**law));
         let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), touching));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(&finest, iteration);
@@ -284,7 +284,7 @@ impl Nested {
         watch: GridObserver<'_>,
     ) -> Result<(Vec<Level>, Option<Deformed<T>>)> {
         let (varies, wall) = (law.hints().shape.is_some(), solver.constraint.wall());
-        let (rigid, touching) = (wall.is_rigid(), Touching::of(wall, &**law));
+        let (rigid, touching) = (wall.is_rigid(), Touching::new(wall, &**law));
         let tolerance = self.coarse_tolerance.max(solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
@@ -329,7 +329,7 @@ impl Nested {
             let (leads, whole) = weaker.map_or((solution, whole), |weaker| (weaker.solution, weaker.whole));
             // a coarse grid that does not carry its load says nothing of a finer one
             if leads.report.load_error < CARRIED && leads.report.status != Status::Detached {
-                coarser = Some(Deformed::of(&coarse, leads.gap, whole));
+                coarser = Some(Deformed::new(&coarse, leads.gap, whole));
             }
         }
         Ok((levels, coarser))

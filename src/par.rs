@@ -157,7 +157,7 @@ pub(crate) struct Chunks<N> {
 }
 
 impl<N: Nodes> Chunks<N> {
-    fn of(nodes: N, size: usize, width: usize) -> Self {
+    fn new(nodes: N, size: usize, width: usize) -> Self {
         Self { rest: Some(nodes), size: size.max(1), width }
     }
 }
@@ -192,17 +192,17 @@ impl<N: Nodes + Send> Parts for Chunks<N> {
 }
 
 pub(crate) fn chunks<T: Sync>(field: &[T], size: usize) -> Chunks<&[T]> {
-    Chunks::of(field, size, 1)
+    Chunks::new(field, size, 1)
 }
 
 pub(crate) fn chunks_mut<T: Send>(field: &mut [T], size: usize) -> Chunks<&mut [T]> {
-    Chunks::of(field, size, 1)
+    Chunks::new(field, size, 1)
 }
 
 /// The tiles of `size` rows (axis 0) or columns (axis 1) of a field.
 pub(crate) fn tiles<T: Sync>(field: ArrayView2<'_, T>, axis: usize, size: usize) -> Chunks<Tile<ArrayView2<'_, T>>> {
     let width = field.len_of(Axis(1 - axis));
-    Chunks::of(Tile(field, Axis(axis)), size, width)
+    Chunks::new(Tile(field, Axis(axis)), size, width)
 }
 
 pub(crate) fn tiles_mut<T: Send>(
@@ -211,7 +211,7 @@ pub(crate) fn tiles_mut<T: Send>(
     size: usize,
 ) -> Chunks<Tile<ArrayViewMut2<'_, T>>> {
     let width = field.len_of(Axis(1 - axis));
-    Chunks::of(Tile(field, Axis(axis)), size, width)
+    Chunks::new(Tile(field, Axis(axis)), size, width)
 }
 
 pub(crate) fn for_each<P: Parts>(parts: P, f: impl Fn(usize, P::Part) + Sync) {

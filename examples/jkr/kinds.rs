@@ -48,7 +48,8 @@ impl Tally {
             let truth = if jumps { c } else { extrapolate(c, b) };
             self.pairs[column].extend(error.map(|error| ((a / truth - 1.0).abs(), error.relative)));
             if quantity == Quantity::Area && !scene.free {
-                for (errors, Level { area, adhesive_contact_fraction, .. }) in self.areas.iter_mut().zip([&here, &half]) {
+                for (errors, Level { area, adhesive_contact_fraction, .. }) in self.areas.iter_mut().zip([&here, &half])
+                {
                     let energies = [*adhesive_contact_fraction, area.jkr_contact_fraction];
                     let [by_energy, less_zone] = energies.map(|area| area.unwrap_or(f64::NAN));
                     let all = [area.contact_fraction, area.corrected_contact_fraction, by_energy, less_zone];
@@ -81,7 +82,8 @@ pub fn table(count: usize, seed: u64, only: Option<&str>) -> Outcome<()> {
     );
     let mut areas: [[Vec<f64>; 4]; 2] = Default::default();
     for (kind, number) in KINDS.into_iter().zip(0..).filter(|(kind, _)| only.is_none_or(|only| *kind == only)) {
-        let (mut draw, mut tally) = (Draw((seed + 1000 * number).wrapping_mul(0x2545_f491_4f6c_dd1d)), Tally::default());
+        let (mut draw, mut tally) =
+            (Draw((seed + 1000 * number).wrapping_mul(0x2545_f491_4f6c_dd1d)), Tally::default());
         for drawn in 0..count.div_ceil(KINDS.len()) {
             let mut scene = Scene::drawn(kind, &mut draw);
             tally.add(&scene)?;

@@ -84,7 +84,8 @@ pub fn draw([of_rough, of_sphere]: [usize; 2], path: &Path) -> Outcome<()> {
     };
     let by_measure = |measure: f64| move |n| (sphere::WORK * sphere::SIDE / (n as f64 * measure)).sqrt();
     let exact = vec![(32.0, 1.0), (of_sphere as f64, 1.0)];
-    let exact = Series { name: "Johnson, Kendall, Roberts".to_owned(), colour: BLACK, style: Style::Thin, points: exact };
+    let exact =
+        Series { name: "Johnson, Kendall, Roberts".to_owned(), colour: BLACK, style: Style::Thin, points: exact };
     let of_ball = vec![
         exact,
         ball.with_range("μ_ρ = 0.5", COLOURS[1], by_measure(0.5))?,

@@ -42,6 +42,9 @@ pub const KINDS: [&str; 18] = [
     "sphere to the edge",
 ];
 
+/// The errors that the library tells of quantities.
+type Errors = Vec<(Quantity, Option<GridError>)>;
+
 type Heights = Box<dyn Fn(Grid) -> Result<Surface>>;
 
 /// A scene of a kind.
@@ -182,7 +185,7 @@ impl Scene {
     }
 
     /// The finest level of nested grids, and its errors.
-    pub fn solve(&self, finer: usize, control: Control) -> Outcome<(Level, Vec<(Quantity, Option<GridError>)>)> {
+    pub fn solve(&self, finer: usize, control: Control) -> Outcome<(Level, Errors)> {
         let surface = self.surface(finer)?;
         let nested = Nested::default().coarsest(16).closed(1.0).coarse_tolerance(GridError::COARSE_TOLERANCE);
         let law = self.law(surface.grid())?;

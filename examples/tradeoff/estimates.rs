@@ -9,7 +9,7 @@ use asperity::{Boundary, Control, Grid, NoAdhesion, Settings, Solver, Surface};
 use ndarray::Array2;
 
 use crate::knob::half_space;
-use common::Outcome;
+use common::{Draw, Outcome};
 
 /// The bytes of the finest grid, which is the truth, and the least factor by which it is finer along the sides.
 const MEMORY: f64 = 1.3e7;

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use asperity::Solution;
 use asperity_maps::Topography;
 use asperity_scene::outcome::Outcome;
-use asperity_scene::{self as scene, Account, Found, Sight, Skin, rows, shortfalls};
+use asperity_scene::{self as scene, Account, Answer, Sight, Skin, rows, shortfalls};
 use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
@@ -22,11 +22,11 @@ use crate::running::At;
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(
     at: &At<'py>,
-    found: Outcome<(Found<T>, Account)>,
+    found: Outcome<(Answer<T>, Account)>,
     raised: Option<PyErr>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (py, threads) = (at.py, at.pool.asked);
-    let (Found { solution, sight, mode, refined, .. }, account) = match (found, raised.as_ref()) {
+    let (Answer { solution, sight, mode, refined, .. }, account) = match (found, raised.as_ref()) {
         (Ok(found), _) => found,
         (Err(_), Some(raised)) => return Err(raised.clone_ref(py)),
         (Err(error), None) => return Err(refusal_of_session(error)),
@@ -77,7 +77,7 @@ impl<T: Scalar> Seen<T> {
     ) -> PyResult<R> {
         let fields = self.fields.each_ref().map(|field| field.bind(py).readonly());
         let fields = fields.each_ref().map(|field| field.as_array());
-        let pool = Pool::of(self.threads)?;
+        let pool = Pool::new(self.threads)?;
         let look = || {
             // not on a thread of the pool, which may take up another look while it waits in this one
             let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);

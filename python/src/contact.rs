@@ -16,11 +16,11 @@ use crate::refusal::refusal;
 use crate::report::reported;
 
 /// Sizes and labels of clusters.
-type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
+type Labels<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
 
 /// The clusters of a map; opposite sides meet if it is periodic.
 #[pyfunction]
-pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> Found<'py> {
+pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> Labels<'py> {
     let map = map.as_array();
     let found = py.detach(|| if periodic { Clusters::of(map) } else { Clusters::of_part(map) });
     (whole(py, found.sizes), found.labels.mapv(|label| label as i64).into_pyarray(py))
@@ -55,7 +55,7 @@ pub fn contact_picture(
 /// The end of the scale of the positive pressures, the greatest of them, and the share of their load beyond the end.
 #[pyfunction]
 pub fn load_scale(pressure: Field<'_>, end: Option<f64>) -> (f64, f64, f64) {
-    let LoadScale { end, greatest, beyond, .. } = LoadScale::of(&pressure.as_array(), end);
+    let LoadScale { end, greatest, beyond, .. } = LoadScale::from_values(&pressure.as_array(), end);
     (end, greatest, beyond)
 }
 
@@ -90,7 +90,7 @@ pub fn contact_tables<'py>(
     let (gap, pressure) = (gap.as_array(), contact_pressure.as_array());
     let is_original = boundary == "original";
     let boundary = if boundary == "periodic" { Boundary::Periodic } else { Boundary::Free };
-    let find = || ContactTables::of(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary, is_original);
+    let find = || ContactTables::measure(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary, is_original);
     let tables = py.detach(find).map_err(refusal)?;
     let found = PyDict::new(py);
     found.set_item("figures", reported(py, &tables.figures())?)?;

@@ -13,12 +13,12 @@ use pyo3::prelude::*;
 pub struct Equilibria(Vec<Model>);
 
 /// Shapes and knots of a model.
-type Given<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray3<'py, f64>, Option<PyReadonlyArray3<'py, f64>>);
+type ModelKnots<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray3<'py, f64>, Option<PyReadonlyArray3<'py, f64>>);
 
 #[pymethods]
 impl Equilibria {
     #[new]
-    fn new(models: Vec<Given<'_>>) -> PyResult<Self> {
+    fn new(models: Vec<ModelKnots<'_>>) -> PyResult<Self> {
         let knots = |way: &PyReadonlyArray3<'_, f64>| {
             let way = way.as_array();
             let rows =

@@ -24,7 +24,7 @@ impl Functions {
     ///
     /// # Errors
     /// `TypeError` if it lacks a function.
-    pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub fn from_object(object: &Bound<'_, PyAny>) -> PyResult<Self> {
         let scales = object.py().import("asperity.common.functions")?.call_method1("read_scales", (object,))?;
         let (work_of_adhesion, range) = scales.extract()?;
         Ok(Self { object: object.clone().unbind(), work_of_adhesion, range })

@@ -3,7 +3,7 @@
 use asperity_maps::Topography;
 use asperity_scene::allowed::Range;
 use asperity_scene::quantity::Quantity;
-use asperity_scene::{Measured, Quantities, Skin, dimension_of_key, numbers};
+use asperity_scene::{Quantities, QuantityEntry, Skin, dimension_of_key, numbers};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -56,13 +56,13 @@ pub fn in_si<'py>(given: Vec<(String, Bound<'py, PyAny>)>) -> PyResult<(Vec<Boun
 }
 
 /// The value of a keyword; its quantities are `found`.
-fn read<'py>(key: &str, value: &Bound<'py, PyAny>, found: &mut Vec<Measured>) -> PyResult<Bound<'py, PyAny>> {
+fn read<'py>(key: &str, value: &Bound<'py, PyAny>, found: &mut Vec<QuantityEntry>) -> PyResult<Bound<'py, PyAny>> {
     if value.is_none() || value.is_instance_of::<PyBytes>() || !has_dimension(key) {
         return Ok(value.clone());
     }
     if let Ok(text) = value.extract::<String>() {
         let quantity = measured(key, &text)?;
-        found.push(Measured::of(key, vec![text], &[quantity], false));
+        found.push(QuantityEntry::new(key, vec![text], &[quantity], false));
         return quantity.value.into_bound_py_any(value.py());
     }
     if let Ok(items) = value.try_iter() {
@@ -71,7 +71,7 @@ fn read<'py>(key: &str, value: &Bound<'py, PyAny>, found: &mut Vec<Measured>) ->
     }
     // zero is zero in all units
     if value.ne(0)? {
-        found.push(Measured::of(key, vec![value.repr()?.to_string()], &[Quantity::bare(f64::NAN)], false));
+        found.push(QuantityEntry::new(key, vec![value.repr()?.to_string()], &[Quantity::bare(f64::NAN)], false));
     }
     Ok(value.clone())
 }

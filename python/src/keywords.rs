@@ -1,6 +1,6 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::{Adhesion, Given, Key, Quantities, Skin, Typed, key};
+use asperity_scene::{Adhesion, Entries, Input, Key, Quantities, Skin, key};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -15,27 +15,27 @@ macro_rules! known {
 pub(crate) use known;
 
 /// What a dictionary of keywords gives for some of the `known` keys.
-pub fn read(known: &[&'static Key], keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
+pub fn read(known: &[&'static Key], keywords: &Bound<'_, PyDict>) -> PyResult<Entries> {
     let of = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let key: String = key.extract()?;
         let typed = typed(&key, &value)?;
         Ok((key, typed))
     };
     let typed = keywords.iter().map(of).collect::<PyResult<Vec<_>>>()?;
-    Given::read(known, typed).map_err(reason)
+    Entries::read(known, typed).map_err(reason)
 }
 
 /// The value of a keyword: a truth value, a text, a number, or several.
-fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
+fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Input> {
     if let Ok(value) = value.extract() {
-        return Ok(Typed::Switch(value));
+        return Ok(Input::Switch(value));
     }
     if let Ok(text) = value.extract() {
-        return Ok(Typed::Text(text));
+        return Ok(Input::Text(text));
     }
     if let (Ok(items), false) = (value.try_iter(), value.is_instance_of::<PyBytes>()) {
         let items = items.map(|item| typed(key, &item?)).collect::<PyResult<Vec<_>>>()?;
-        if items.iter().any(|item| matches!(item, Typed::Several(_))) {
+        if items.iter().any(|item| matches!(item, Input::Several(_))) {
             let shape = value
                 .getattr("shape")
                 .map_or_else(|_| "a list of lists".to_owned(), |shape| format!("an array of shape {shape}"));
@@ -48,15 +48,15 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
                 "{key} is {shape}: it must be one value, or a list of them{map}"
             )));
         }
-        return Ok(Typed::Several(items));
+        return Ok(Input::Several(items));
     }
     if let Ok(value) = value.extract() {
-        return Ok(Typed::Whole(value));
+        return Ok(Input::Whole(value));
     }
     if let Ok(value) = value.extract::<i64>() {
-        return Ok(Typed::Text(value.to_string()));
+        return Ok(Input::Text(value.to_string()));
     }
-    value.extract().map(Typed::Number).or_else(|_| {
+    value.extract().map(Input::Number).or_else(|_| {
         let value = value.repr()?;
         let message =
             "it must be a number, in units that fit the others, such as 70e9 for 70 GPa in Pa, or a string with a unit";
@@ -67,7 +67,7 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
 /// What was given for the keys of a problem.
 #[pyclass(frozen, module = "asperity._asperity")]
 pub struct Keywords {
-    pub given: Given,
+    pub given: Entries,
     pub law: Option<Law>,
     pub quantities: Quantities,
     /// Whether numbers without a unit are in SI units
@@ -75,7 +75,7 @@ pub struct Keywords {
 }
 
 /// The quantities of keywords, whose numbers without a unit may be in SI units.
-pub fn quantities_of(given: &Given, numbers_are_si: bool) -> Quantities {
+pub fn quantities_of(given: &Entries, numbers_are_si: bool) -> Quantities {
     if numbers_are_si { given.quantities().in_si() } else { given.quantities() }
 }
 
@@ -85,7 +85,7 @@ impl Keywords {
     #[pyo3(signature = (keywords, law, numbers_are_si=false))]
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, numbers_are_si: bool) -> PyResult<Self> {
         let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
-        let law = law.map(Law::of).transpose()?;
+        let law = law.map(Law::from_object).transpose()?;
         let of_law = law.as_ref().map(|law| law.given.quantities()).unwrap_or_default();
         let quantities = Quantities::all([quantities_of(&given, numbers_are_si), of_law]);
         // the numbers of a law in SI units say nothing of units

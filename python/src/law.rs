@@ -7,7 +7,7 @@ use std::sync::Arc;
 use asperity::adhesion::{Formula, Values, check_functions};
 use asperity::{AdhesionLaw, adhesion};
 use asperity_scene::numbers::plain;
-use asperity_scene::{Adhesion, Key, Measured, Quantities, Scalar, Skin, Wall, dimension_of_key, key};
+use asperity_scene::{Adhesion, Key, Quantities, QuantityEntry, Scalar, Skin, Wall, dimension_of_key, key};
 use numpy::ndarray::ArrayD;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
@@ -30,14 +30,14 @@ pub enum Measure {
 
 /// The numbers of a law as they were typed, by their names in reports: all with units, or none.
 #[derive(Clone, Default)]
-pub struct Given {
+pub struct LawNumbers {
     /// Those with a unit
     pub texts: Vec<(String, String)>,
     /// The first one without, if it has a dimension
     pub bare: Option<(String, f64)>,
 }
 
-impl Given {
+impl LawNumbers {
     /// The number that was typed, in SI units if it has a unit.
     pub fn read(&mut self, key: &str, typed: Measure) -> PyResult<f64> {
         let value = match typed {
@@ -62,7 +62,7 @@ impl Given {
     pub fn quantities(&self) -> Quantities {
         let of = |(key, text): (&String, String)| {
             let numbers = Key::named(key)?.any_value(&text).ok()?.numbers;
-            Some(Measured::of(key, vec![text], &numbers, false))
+            Some(QuantityEntry::new(key, vec![text], &numbers, false))
         };
         let texts = self.texts.iter().map(|(key, text)| (key, text.clone()));
         texts.chain(self.bare.iter().map(|(key, value)| (key, plain(*value)))).filter_map(of).collect()
@@ -76,7 +76,7 @@ pub struct Law {
     pub formula: Formula,
     /// Its part of a report; of the wall it says no more than whether the law is made for one
     pub adhesion: Adhesion,
-    pub given: Given,
+    pub given: LawNumbers,
 }
 
 impl PartialEq for Law {
@@ -112,9 +112,9 @@ impl Law {
 
 impl Law {
     /// The law of an object: one of the library, a table of the functions that it has, or no adhesion for `None`.
-    pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub fn from_object(object: &Bound<'_, PyAny>) -> PyResult<Self> {
         if object.is_none() {
-            return Self::of_library(Adhesion::of("none"));
+            return Self::of_library(Adhesion::record("none"));
         }
         Self::some(object)
     }
@@ -124,17 +124,17 @@ impl Law {
         if let Ok(law) = object.cast::<Self>() {
             return Ok(law.get().clone());
         }
-        let functions = Functions::of(object)?;
+        let functions = Functions::from_object(object)?;
         let Functions { work_of_adhesion, range, .. } = functions;
         let formula: Formula = asperity::Tabulated::of(functions).map_err(refusal)?.into();
         let name = object.get_type().name()?.to_string();
-        let adhesion = Adhesion { work_of_adhesion, range, ..Adhesion::of(name) };
-        Ok(Self { formula, adhesion, given: Given::default() })
+        let adhesion = Adhesion { work_of_adhesion, range, ..Adhesion::record(name) };
+        Ok(Self { formula, adhesion, given: LawNumbers::default() })
     }
 
     /// The law of the library that a description has.
     pub fn of_library(adhesion: Adhesion) -> PyResult<Self> {
-        Ok(Self { formula: adhesion.formula(None).map_err(refusal)?, adhesion, given: Given::default() })
+        Ok(Self { formula: adhesion.formula(None).map_err(refusal)?, adhesion, given: LawNumbers::default() })
     }
 
     /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
@@ -163,7 +163,7 @@ impl Law {
 /// a wall.
 #[pyfunction]
 pub fn law(name: &str, typed: &Bound<'_, PyDict>, cut: Option<bool>) -> PyResult<(Law, Vec<f64>)> {
-    let (mut given, mut numbers, described) = (Given::default(), Vec::new(), PyDict::new(typed.py()));
+    let (mut given, mut numbers, described) = (LawNumbers::default(), Vec::new(), PyDict::new(typed.py()));
     described.set_item("law", name)?;
     for (key, value) in typed {
         let key: String = key.extract()?;
@@ -188,8 +188,8 @@ fn table(
     source: Option<String>,
 ) -> Table<'_> {
     let law_table = source.clone().or_else(|| Some("array".to_owned()));
-    let adhesion = Adhesion { law_table, ..Adhesion::of("table") };
-    let law = Law { formula: Arc::new(law), adhesion, given: Given::default() };
+    let adhesion = Adhesion { law_table, ..Adhesion::record("table") };
+    let law = Law { formula: Arc::new(law), adhesion, given: LawNumbers::default() };
     (law, (gaps.into_pyarray(py), tractions.into_pyarray(py), source))
 }
 
@@ -285,7 +285,7 @@ pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<(
             let law = f64::law(law.get().formula.clone());
             adhesion::check_law(&law, largest_gap.unwrap_or_else(|| law.hints().far()))
         }
-        Err(_) => check_functions(Functions::of(law)?, largest_gap),
+        Err(_) => check_functions(Functions::from_object(law)?, largest_gap),
     };
     checked.map_err(refusal)
 }

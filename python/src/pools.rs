@@ -47,7 +47,7 @@ impl Pool {
     ///
     /// # Errors
     /// `ValueError` for no threads or too many, `RuntimeError` if they cannot be started.
-    pub fn of(threads: Option<usize>) -> PyResult<Self> {
+    pub fn new(threads: Option<usize>) -> PyResult<Self> {
         if let Some(count) = threads.filter(|count| !(1..=MOST).contains(count)) {
             let message = format!("threads is {count}: it must be from 1 to {MOST}, or None for one per core");
             return Err(PyValueError::new_err(message));
@@ -94,5 +94,5 @@ impl Drop for Pool {
 
 /// Does something on the shared pool, without the lock of the interpreter.
 pub fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Send) -> PyResult<R> {
-    Pool::of(None)?.install(py, act).map_err(refusal)
+    Pool::new(None)?.install(py, act).map_err(refusal)
 }

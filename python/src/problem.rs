@@ -6,7 +6,7 @@ use asperity_maps::Topography;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::LENGTH;
 use asperity_scene::theories::Theories;
-use asperity_scene::{AnyRows, AnySession, Boundary, Case, Given, Load, Maps, Objects, Skin, Way, either, worded};
+use asperity_scene::{AnyRows, AnySession, Boundary, Case, Entries, Load, Maps, Objects, Skin, Way, either, worded};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -44,11 +44,11 @@ pub struct Problem {
 impl Problem {
     /// The place of its solves.
     fn at<'py>(&self, py: Python<'py>, observer: Option<Py<PyAny>>) -> PyResult<At<'py>> {
-        Ok(At { py, pool: Pool::of(self.case.given().threads())?, observer })
+        Ok(At { py, pool: Pool::new(self.case.given().threads())?, observer })
     }
 
     /// The case and the session of a call, with what is given for several parts of it.
-    fn called(&mut self, parts: &[Given]) -> PyResult<(Case, AnySession)> {
+    fn called(&mut self, parts: &[Entries]) -> PyResult<(Case, AnySession)> {
         let case = self.case.with(parts).map_err(refusal_of_session)?;
         let session = if self.is_kept { self.session.clone() } else { self.session.take() };
         let mut session =
@@ -85,15 +85,15 @@ impl Problem {
         is_kept: bool,
     ) -> PyResult<Self> {
         let (Keywords { given, law, quantities, numbers_are_si }, (against, facing)) = (keywords, other);
-        let at = At { py, pool: Pool::of(given.threads())?, observer: None };
+        let at = At { py, pool: Pool::new(given.threads())?, observer: None };
         let law = law.as_ref().map(|law| (law.formula.clone(), law.adhesion.clone()));
         let (symbol, has_hardness, numbers_are_si) = (symbol.map(symbol_of), hardness.is_some(), *numbers_are_si);
         let objects = Objects { law, symbol, has_hardness, numbers_are_si };
-        let case = Case::of(given.clone(), quantities.clone(), objects, Skin::Keywords).map_err(refusal_of_session)?;
+        let case = Case::new(given.clone(), quantities.clone(), objects, Skin::Keywords).map_err(refusal_of_session)?;
         let hardness = hardness.map(|hardness| hardness.to_array()).transpose()?;
         let unit = map.unit.clone();
         let changes = against.is_some() || quantities.is_si() && unit.as_deref().is_some_and(|unit| unit != LENGTH.si);
-        let maps = Maps { facing, hardness, ..Maps::of(map.named()?) };
+        let maps = Maps { facing, hardness, ..Maps::new(map.named()?) };
         let maps = Maps { against: against.map(Map::named).transpose()?, ..maps };
         let pose = || case.on(maps, at.pool.threads(), &Processes::start()?);
         let on_maps = at.pool.install(py, pose).map_err(refusal_of_session)?;
@@ -107,7 +107,7 @@ impl Problem {
         let facing = on_maps.inputs.against.clone();
         let beyond_theory = Theories::check(&surface, case.scene()).err().map(|reason| worded(&reason, Skin::Keywords));
         drop(surface);
-        let make = || AnySession::of(on_maps, &Processes::start()?);
+        let make = || AnySession::new(on_maps, &Processes::start()?);
         let session = Some(at.pool.install(py, make).map_err(refusal_of_session)?);
         let (rows, posed) = (Mutex::new(None), posed.unbind());
         Ok(Self { session, is_kept, rows, case, beyond_theory, posed, facing })

@@ -84,7 +84,7 @@ pub fn until_interrupted<R: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(GoesOn<'_>) -> R + Send + 'static,
 ) -> PyResult<R> {
-    let (pool, stop) = (Pool::of(None)?, Arc::new(AtomicBool::new(false)));
+    let (pool, stop) = (Pool::new(None)?, Arc::new(AtomicBool::new(false)));
     let (answer, answered) = mpsc::channel();
     let stopped = Arc::clone(&stop);
     let begun = thread::Builder::new().spawn(move || {

@@ -35,19 +35,19 @@ pub struct Map<H> {
 }
 
 /// A map that Python gives.
-pub type Given<'py> = Map<Field<'py>>;
+pub type InputMap<'py> = Map<Field<'py>>;
 
 /// A map that Python gets.
-type Made<'py> = Map<Bound<'py, PyArray2<f64>>>;
+type OutputMap<'py> = Map<Bound<'py, PyArray2<f64>>>;
 
-impl<'py> Made<'py> {
-    fn of(py: Python<'py>, topography: Topography) -> Self {
+impl<'py> OutputMap<'py> {
+    fn new(py: Python<'py>, topography: Topography) -> Self {
         let Topography { heights, lengths, unit, original, seed, scars_removed, periodic, .. } = topography;
         Self { heights: heights.into_pyarray(py), lengths, unit, original, seed, scars_removed, periodic }
     }
 }
 
-impl Given<'_> {
+impl InputMap<'_> {
     /// The map of the library.
     pub fn topography(self) -> PyResult<Topography> {
         let mut map = Topography::new(self.heights.to_array()?);
@@ -71,18 +71,18 @@ pub fn read(
     skip_lines: usize,
     missing: Vec<String>,
     masked: bool,
-) -> PyResult<(Made<'_>, Vec<String>)> {
+) -> PyResult<(OutputMap<'_>, Vec<String>)> {
     let mut reading = Reading::default();
     (reading.channel, reading.skip_lines) = (channel, skip_lines);
     (reading.missing, reading.masked) = (missing, masked);
     let mut map = apart(py, || reading.read(&path))?;
     let unread = std::mem::take(&mut map.unread);
-    Ok((Made::of(py, map), unread))
+    Ok((OutputMap::new(py, map), unread))
 }
 
 /// Writes a map to a file, in the format of its ending; with `force` over one that is there.
 #[pyfunction]
-pub fn write(given: Given<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+pub fn write(given: InputMap<'_>, path: PathBuf, force: bool) -> PyResult<()> {
     let map = given.topography()?;
     let file = OutputFile::create(&path, force).map_err(|error| PyValueError::new_err(error.to_string()))?;
     file.complete(|path| write_topography(path, &map)).map_err(refusal)
@@ -173,19 +173,19 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
 
 /// A map in metres.
 #[pyfunction]
-pub fn in_metres<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Made<'py>> {
+pub fn in_metres<'py>(py: Python<'py>, given: InputMap<'py>) -> PyResult<OutputMap<'py>> {
     let found = in_unit(given.topography()?, LENGTH.si);
-    Ok(Made::of(py, found.map_err(|text| reason(format!("heights: {text}")))?))
+    Ok(OutputMap::new(py, found.map_err(|text| reason(format!("heights: {text}")))?))
 }
 
 /// A prepared map, the lines of its log, and the warnings.
-type Prepared<'py> = (Made<'py>, Vec<String>, Bound<'py, PyAny>);
+type Prepared<'py> = (OutputMap<'py>, Vec<String>, Bound<'py, PyAny>);
 
 /// Takes the steps from a measured map to a periodic surface, by their keys.
 #[pyfunction]
 pub fn prepare<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: InputMap<'py>,
     new_lengths: Option<(f64, f64)>,
     cut_off_wavelength: Option<f64>,
     in_metres: bool,
@@ -201,5 +201,5 @@ pub fn prepare<'py>(
     let mut log = Log::default();
     let prepared = apart(py, || steps.run(measured, &mut log))?;
     let lines = log.lines.iter().map(|(step, what)| format!("{step}: {what}")).collect();
-    Ok((Made::of(py, prepared), lines, reported(py, &log.warnings)?))
+    Ok((OutputMap::new(py, prepared), lines, reported(py, &log.warnings)?))
 }

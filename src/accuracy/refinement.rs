@@ -122,9 +122,9 @@ impl<T: Real> Refinement<'_, T> {
             return Ok(Some(Finest { surface, law, solved, levels, nodes_per_wave, is_resolved }));
         }
         let half_space = self.operators.on(*surface.grid())?;
-        let touching = Touching::of(self.solver.constraint.wall(), &*law);
+        let touching = Touching::new(self.solver.constraint.wall(), &*law);
         let Solved { solution, whole, .. } = coarse.solved;
-        let deformed = Deformed::of(&coarse.surface, solution.gap, whole);
+        let deformed = Deformed::new(&coarse.surface, solution.gap, whole);
         let start = deformed.prolonged(&surface, half_space.grid(), touching);
         let mut problem = Problem::of(&surface, half_space, law.clone())?;
         let grid = *surface.grid();

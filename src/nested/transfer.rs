@@ -98,7 +98,7 @@ struct Side {
 }
 
 impl Side {
-    fn of(window: (usize, usize), whole: (usize, usize)) -> [Self; 2] {
+    fn new(window: (usize, usize), whole: (usize, usize)) -> [Self; 2] {
         [Self { window: window.0, whole: whole.0 }, Self { window: window.1, whole: whole.1 }]
     }
 
@@ -147,7 +147,7 @@ impl Touching {
     #[cfg(test)]
     const ZERO: Self = Self { free: false, yields: false, least: 0.0 };
 
-    pub(crate) fn of<T: Real>(wall: Wall<'_, T>, law: &dyn AdhesionLaw<T>) -> Self {
+    pub(crate) fn new<T: Real>(wall: Wall<'_, T>, law: &dyn AdhesionLaw<T>) -> Self {
         Self {
             free: wall.is_soft(),
             yields: wall.hardness().is_some(),
@@ -184,7 +184,7 @@ pub(crate) struct Deformed<T> {
 
 impl<T: Real> Deformed<T> {
     /// The half-space under a surface, from the gap, and that on the operator's grid if it is another.
-    pub(crate) fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
+    pub(crate) fn new(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
         let (grid, mut gap) = whole.unwrap_or((*surface.grid(), gap));
         let mut displacement = gap.mapv(T::widen);
         match Window::new(surface, &grid) {
@@ -203,7 +203,7 @@ impl<T: Real> Deformed<T> {
         let facing = Window::new(surface, grid);
         let extended = facing.as_ref().map(|facing| facing.extend(surface.heights().view()));
         let heights = ordered(extended.as_ref().unwrap_or(surface.heights()).view());
-        let [from, to] = [Side::of(window, coarse.shape()), Side::of(surface.grid().shape(), grid.shape())];
+        let [from, to] = [Side::new(window, coarse.shape()), Side::new(surface.grid().shape(), grid.shape())];
         let (along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let needed = |row: usize| along_x[row].nodes;
         let displacement = coarse.slab().rows_for(displacement, &grid.slab(), needed);
@@ -279,7 +279,7 @@ mod tests {
                 Array2::from_shape_fn((nx, ny), |(i, j)| 2.0 + turn(i, nx).sin() * turn(j, ny).cos())
             };
             let (gap, exact) = (wave(coarse.grid()) - coarse.heights(), wave(&grid) - surface.heights());
-            let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::ZERO);
+            let fine = Deformed::new(&coarse, gap, None).prolonged(&surface, &grid, Touching::ZERO);
             // the error of the cubic in the middle, 3/128 of the fourth derivative, along both sides
             let spacing = std::f64::consts::TAU / 16.0;
             let worst = (&fine - &exact).iter().fold(0.0_f64, |worst, e| worst.max(e.abs()));
@@ -293,7 +293,7 @@ mod tests {
         let surface = Surface::wave_2d(grid, 0.1, 3).unwrap();
         let coarse = coarsen(&surface, (8, 8)).unwrap().unwrap();
         let gap = Array2::from_shape_fn((8, 8), |(i, _)| if i < 4 { 0.0_f32 } else { 1.0 });
-        let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::ZERO);
+        let fine = Deformed::new(&coarse, gap, None).prolonged(&surface, &grid, Touching::ZERO);
         assert!(fine.rows().into_iter().take(7).all(|row| row.iter().all(|&g| g == 0.0)));
         assert!(fine.rows().into_iter().skip(8).step_by(2).all(|row| row.iter().all(|&g| g > 0.0)));
     }

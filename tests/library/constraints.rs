@@ -209,7 +209,7 @@ fn report_and_contact_map_count_the_same_nodes() {
     }
     let mut rounds = 0;
     for seed in 0..60 {
-        let scene = Scene::of(seed, &WALLED);
+        let scene = Scene::with_features(seed, &WALLED);
         let (projected, uzawa, outer) = both::<f64>(&scene, scene.stiffness);
         let penalty = Solver { settings: Settings::default(), constraint: Penalty::new(scene.stiffness).unwrap() }
             .solve(&mut scene.problem::<f64>().unwrap(), scene.control)

@@ -210,7 +210,7 @@ fn the_matrices_notice_what_is_wrong() {
         ("gap", |solution| solution.gap.mapv_inplace(|gap| 1.001 * gap)),
     ];
     let mut noticed = [0; 8];
-    let scenes = (0..200).map(|seed| Scene::of(seed, &features));
+    let scenes = (0..200).map(|seed| Scene::with_features(seed, &features));
     for scene in scenes.filter(|scene| scene.body == Body::Periodic && scene.relief == "noise") {
         let (solution, problem) = (scene.solution::<f64>().unwrap(), scene.problem::<f64>().unwrap());
         if solution.report.status != Status::Converged || solution.report.contact_nodes == 0 {
@@ -234,7 +234,7 @@ fn variable(name: &str, default: u64) -> u64 {
 
 #[test]
 fn random_scenes_agree_with_dense_matrices_and_end_as_they_should() {
-    Account::of(0..885).check();
+    Account::collect(0..885).check();
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn scenes_of_the_law_that_has_the_range_of_the_grid_agree_with_dense_matrices() 
     let count = variable("SCENES", 360);
     let (mut ends, mut wrong) = (BTreeMap::<End, u64>::new(), Vec::new());
     for seed in 0..count {
-        let scene = Scene::of(seed, &Features::JKR);
+        let scene = Scene::with_features(seed, &Features::JKR);
         match judge(&scene) {
             Ok(judged) => *ends.entry(judged.end).or_default() += 1,
             Err(what) => wrong.push(format!("{scene}: {what}")),
@@ -271,7 +271,7 @@ const MORE: [(&str, f64); 8] = [
 fn scenes_of_more_physics_agree_with_dense_matrices() {
     let (first, count) = (variable("FIRST", 0), variable("SCENES", 273));
     let (mut tallies, mut wrong) = (BTreeMap::<&str, Tally>::new(), Vec::new());
-    for scene in (first..first + count).map(|seed| Scene::of(seed, &Features::MORE)) {
+    for scene in (first..first + count).map(|seed| Scene::with_features(seed, &Features::MORE)) {
         if count == 1 {
             println!("{scene:#?}");
         }
@@ -299,7 +299,7 @@ fn scenes_of_more_physics_agree_with_dense_matrices() {
 #[test]
 fn walls_that_yield_are_right_at_the_least_mean_gaps() {
     for seed in [5601, 6108, 7808, 8640, 9717, 10223, 11841, 15680, 15982, 19503] {
-        caught(&Scene::of(seed, &Features::MORE)).unwrap();
+        caught(&Scene::with_features(seed, &Features::MORE)).unwrap();
     }
 }
 
@@ -349,7 +349,7 @@ fn a_constant_decides_scenes() {
 #[ignore = "some minutes; see above"]
 fn all_scenes() {
     let (first, count) = (variable("FIRST", 0), variable("SCENES", 20_000));
-    let account = Account::of(first..first + count);
+    let account = Account::collect(first..first + count);
     if count == 1 {
         println!("{:#?}", Scene::new(first));
     }

@@ -59,11 +59,11 @@ fn nodes_of((nx, ny): (usize, usize)) -> impl Iterator<Item = (usize, usize)> {
 impl Dense {
     /// A half-space in a periodic cell.
     pub fn new(shape: (usize, usize), lengths: (f64, f64), modulus: f64) -> Self {
-        Self::of(shape, lengths, |qx, qy| 0.5 * modulus * qx.hypot(qy))
+        Self::from_stiffness(shape, lengths, |qx, qy| 0.5 * modulus * qx.hypot(qy))
     }
 
     /// A periodic cell of the stiffness of every wave: K⁻¹ and K by their defining sums over waves.
-    pub fn of((nx, ny): (usize, usize), (lx, ly): (f64, f64), stiffness: impl Fn(f64, f64) -> f64) -> Self {
+    pub fn from_stiffness((nx, ny): (usize, usize), (lx, ly): (f64, f64), stiffness: impl Fn(f64, f64) -> f64) -> Self {
         let nodes = nx * ny;
         let wave = |i: usize, n: usize, length: f64| {
             let signed = if 2 * i > n { i as f64 - n as f64 } else { i as f64 };

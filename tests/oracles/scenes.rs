@@ -1,6 +1,6 @@
 //! Random small scenes: every body, law, wall, control, start and precision of the library, each from a seed.
 //!
-//! [`Scene::new`] draws from all of them, [`Scene::of`] from those that [`Features`] name.
+//! [`Scene::new`] draws from all of them, [`Scene::with_features`] from those that [`Features`] name.
 
 mod features;
 mod law;
@@ -116,11 +116,11 @@ impl fmt::Display for Scene {
 impl Scene {
     /// One of all scenes.
     pub fn new(seed: u64) -> Self {
-        Self::of(seed, &Features::ALL)
+        Self::with_features(seed, &Features::ALL)
     }
 
     /// One of those with certain features: the seeds go through the combinations of law, wall and precision.
-    pub fn of(seed: u64, features: &Features) -> Self {
+    pub fn with_features(seed: u64, features: &Features) -> Self {
         let combinations = features.combinations();
         let (kind, constraint, precision) = combinations[(seed % combinations.len() as u64) as usize];
         let random = &mut ChaCha8Rng::seed_from_u64(seed);
@@ -345,7 +345,7 @@ impl Scene {
         let (shape, lengths) = (self.grid.shape(), self.grid.lengths());
         match (self.body, self.layers) {
             (Body::Periodic, Some(layers)) => {
-                Dense::of(shape, lengths, |qx, qy| elastic::Body::stiffness(&layers, qx, qy))
+                Dense::from_stiffness(shape, lengths, |qx, qy| elastic::Body::stiffness(&layers, qx, qy))
             }
             (Body::Periodic, None) => Dense::new(shape, lengths, self.modulus),
             (Body::Free, _) => Dense::free(&self.grid, self.modulus),

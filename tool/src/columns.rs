@@ -41,7 +41,7 @@ impl<'a> Columns<'a> {
 
     /// The measure of a column.
     fn measure(&self, name: &str) -> Measure {
-        match Measure::of(name, self.control, false) {
+        match Measure::find(name, self.control, false) {
             Measure::Of(ENERGY_PER_AREA) if self.area.is_some() && name != key!(Adhesion, work_of_adhesion) => {
                 Measure::Of(ENERGY)
             }

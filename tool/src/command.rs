@@ -1,6 +1,6 @@
 //! A command of the program: its name, its help, the lists of its options, and its work.
 
-use asperity_scene::{Given, Key};
+use asperity_scene::{Entries, Key};
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgGroup};
 
@@ -40,7 +40,7 @@ pub struct Command {
     /// The work; whether all converged
     pub run: fn(&Call<'_>) -> Outcome<bool>,
     /// The problem of what is given
-    pub problem: fn(&Given) -> Outcome<ProblemOptions>,
+    pub problem: fn(&Entries) -> Outcome<ProblemOptions>,
     /// Keys of which one has to be given, and no other one
     pub one_of: fn() -> Vec<&'static str>,
     /// Whether all files are in one folder, which options of these files need
@@ -71,7 +71,7 @@ impl Command {
     }
 
     /// Refuses keys that exclude each other, and keys without what they need, in the words of the parser.
-    pub fn check(&self, given: &Given, parser: &clap::Command) -> Result<(), Error> {
+    pub fn check(&self, given: &Entries, parser: &clap::Command) -> Result<(), Error> {
         let option = |name: &str| parser.get_arguments().find(|arg| arg.get_id() == name).map(Arg::to_string);
         let any = |keys: Vec<&str>| format!("<{}>", keys.into_iter().filter_map(option).collect::<Vec<_>>().join("|"));
         let has = |name: &&str| given.entries().any(|(key, _)| key.name == *name);

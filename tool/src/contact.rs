@@ -66,7 +66,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let lengths = gap.lengths.ok_or_else(|| Error::file(folder, "has a report.json without side lengths"))?;
     let grid = Grid::new(gap.heights.dim(), lengths)?;
     let (boundary, is_original) = (solved.boundary(), solved.is_original());
-    let tables = ContactTables::of(gap.heights.view(), pressure.heights.view(), grid, boundary, is_original)?;
+    let tables = ContactTables::measure(gap.heights.view(), pressure.heights.view(), grid, boundary, is_original)?;
     let (figures, units) = (tables.figures(), solved.units());
     let report = || {
         let inputs = json!({
@@ -81,7 +81,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         report::report("contact", json!(figures), &inputs)
     };
     let write = |results: &Results<'_>| {
-        let found = Found { tables: &tables, grid, units: &units, paper };
+        let found = Charts { tables: &tables, grid, units: &units, paper };
         let parts = NAMES.into_iter().zip(found.parts()?).filter_map(|(name, part)| Some((name, part?)));
         let parts: Vec<_> = parts.collect();
         results.write(results.folder()?, |folder| {
@@ -132,7 +132,7 @@ pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents
         spots: rows(folder, "clusters")?.iter().map(spot).collect(),
         mean_contact_pressure: figures.mean_contact_pressure,
     };
-    let found = Found { tables: &tables, grid: Grid::new(shape, lengths)?, units: &units, paper };
+    let found = Charts { tables: &tables, grid: Grid::new(shape, lengths)?, units: &units, paper };
     let pictures = found.parts()?.into_iter().flatten().map(|(_, chart)| chart).collect();
     Ok(Contents { figures: figures.rows(&units), shortfall: None, pictures })
 }
@@ -141,14 +141,14 @@ pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents
 type Part = Option<(String, Picture)>;
 
 /// The tables that were found, with all that their files have.
-struct Found<'a> {
+struct Charts<'a> {
     tables: &'a ContactTables,
     grid: Grid,
     units: &'a Units,
     paper: Paper,
 }
 
-impl Found<'_> {
+impl Charts<'_> {
     fn parts(&self) -> asperity::Result<[Part; 4]> {
         let (gap, pressure) = (&self.tables.gap, &self.tables.pressure);
         Ok([

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use asperity_scene::legs::value;
 use asperity_scene::{
-    Account, CycleLimit, CycleLimits, Given, Kind, Load, Session, Skin, Step, Way, key, keys, unbalanced,
+    Account, CycleLimit, CycleLimits, Entries, Kind, Load, Session, Skin, Step, Way, key, keys, unbalanced,
 };
 use serde_json::{Map, Value, json};
 
@@ -70,13 +70,13 @@ const MOST_EVENTS: usize = 8;
 pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let options = &call.scene.keys::<Options>();
     let Options { out, fields, plot } = options;
-    let table = TableOptions::of(call, out, format_of(out, "")?, fields.as_deref())?;
+    let table = TableOptions::new(call, out, format_of(out, "")?, fields.as_deref())?;
     call.processes.first(|| check_plot(plot.as_deref(), out, table.manner.force))?;
     table.fill(options)
 }
 
 impl Fill for Options {
-    fn way(&self, loads: &[Load], full: f64, given: &Given) -> Outcome<Way> {
+    fn way(&self, loads: &[Load], full: f64, given: &Entries) -> Outcome<Way> {
         Ok(Way::cycle(loads, full, given.path())?)
     }
 

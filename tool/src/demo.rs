@@ -125,10 +125,10 @@ fn solved(
     printing: &Printing,
     processes: &Processes,
 ) -> Outcome<Solved<f64>> {
-    let ProblemOptions { case, files } = ProblemOptions::of(&scene.given)?;
+    let ProblemOptions { case, files } = ProblemOptions::new(&scene.given)?;
     let nodes = map.heights.len();
     let map = HeightMap::whole(named(&files.heights), map);
-    let posed = case.on(Maps::of(map), count(), processes)?;
+    let posed = case.on(Maps::new(map), count(), processes)?;
     let mut progress = Progress::new(name, case.scene().tolerance(), nodes, printing.without_bars());
     let session = Strictness::default().session::<f64>(posed, processes)?;
     let mut solved = session.with_slopes().solve(&case.request(1.0, false)?, None, &mut progress.on_grids())?;

@@ -6,7 +6,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use asperity_scene::{Given, Key, Skin, Values};
+use asperity_scene::{Entries, Key, Skin, Values};
 use clap::Arg;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use toml::de::{DeTable, DeValue};
@@ -109,8 +109,8 @@ impl Reader<'_> {
     }
 
     /// What entries give for the keys, without defaults.
-    pub fn read<'e>(&self, entries: impl IntoIterator<Item = &'e (String, Value)>) -> Result<Given, String> {
-        let mut given = Given::default();
+    pub fn read<'e>(&self, entries: impl IntoIterator<Item = &'e (String, Value)>) -> Result<Entries, String> {
+        let mut given = Entries::default();
         for (name, value) in entries {
             let key = self.command.keys().find(|key| key.dashed() == *name).ok_or_else(|| self.unknown(name))?;
             let invalid = |(text, _): (String, String)| self.invalid(ErrorKind::ValueValidation, key, &text);
@@ -120,7 +120,7 @@ impl Reader<'_> {
     }
 
     /// All that is given, with defaults, unless it is not enough or excludes itself.
-    pub fn complete(&self, given: &Given) -> Result<Given, String> {
+    pub fn complete(&self, given: &Entries) -> Result<Entries, String> {
         let given = given.complete(self.command.keys());
         self.command.check(&given, self.parser()).map_err(|error| on_one_line(&error))?;
         given.quantities().check(Skin::Options)?;

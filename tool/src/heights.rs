@@ -7,7 +7,7 @@ use asperity::Grid;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_rows, read_topography};
 use asperity_maps::warning::{Warning, WarningCode};
-use asperity_scene::{Given, Map, Skin, complete, in_unit, sided, worded};
+use asperity_scene::{Entries, Map, Skin, complete, in_unit, sided, worded};
 use ndarray::Array2;
 
 use crate::outcome::Outcome;
@@ -19,7 +19,7 @@ pub fn named(path: &Path) -> Option<String> {
 }
 
 /// The map of a file with the given `--lengths` (one alone means square cells), or the side lengths of the file, or none.
-pub fn map(path: &Path, given: &Given, si: bool) -> Outcome<Topography> {
+pub fn map(path: &Path, given: &Entries, si: bool) -> Outcome<Topography> {
     let map = Map::whole(named(path), read_topography(path)?);
     Ok(sided(map, given, si, Skin::Options)?.topography)
 }

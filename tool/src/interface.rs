@@ -49,13 +49,13 @@ keys! {
 pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let options = &call.scene.keys::<Options>();
     let out = &options.out;
-    let table = TableOptions { interface: true, ..TableOptions::of(call, out, Format::Csv, None)? };
+    let table = TableOptions { interface: true, ..TableOptions::new(call, out, Format::Csv, None)? };
     let problem = &table.problem;
     if problem.case.scene().elastic.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }
     problem.case.check_elastic("the contact stiffness of an interface is known for elastic contact alone")?;
-    if Format::of(out) != Some(Format::Csv) {
+    if Format::from_path(out) != Some(Format::Csv) {
         return Err(Error::file(out, "does not end in .csv: rename it").into());
     }
     for (_, path) in options.files() {

@@ -61,7 +61,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let Some(chosen) = chosen else {
         return Err("--plot needs a law: choose one by --law, with its parameters".into());
     };
-    Format::of(path)?;
+    Format::from_path(path)?;
     in_options(adhesion.check())?;
     if chosen.of_grid {
         let name = chosen.name;

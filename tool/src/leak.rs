@@ -148,7 +148,7 @@ fn write(
             write_npy(folder.path(flow_name), &speed)?;
             let picture_name = picture_format.file(PICTURES[axis as usize]);
             let found = leak.percolation.along(axis);
-            let passage = (found.map(Narrowest::of), found.map_or(&[][..], |found| &found.path));
+            let passage = (found.map(Narrowest::record), found.map_or(&[][..], |found| &found.path));
             let picture = drawn(axis, (gap, &speed), passage, grid, units, paper)?;
             picture.write(folder.path(&picture_name))?;
             names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);

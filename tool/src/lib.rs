@@ -120,7 +120,7 @@ macro_rules! commands {
                 lists: &[$(<$list as Keys>::KEYS),+],
                 places: &[$(Place::$place),*],
                 run: $module::run,
-                problem: ProblemOptions::of,
+                problem: ProblemOptions::new,
                 one_of: Vec::new,
                 has_folder: false,
             }

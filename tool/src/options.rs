@@ -5,7 +5,7 @@ use std::path::Path;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, read_topography};
 pub use asperity_scene::Scalar;
-use asperity_scene::{After, Case, Files, Given, Map, Maps, Objects, Posed, Session, Skin};
+use asperity_scene::{After, Case, Entries, Files, Map, Maps, Objects, Posed, Session, Skin};
 use ndarray::Array2;
 
 use crate::adhesion::table_of;
@@ -31,8 +31,8 @@ pub struct Problem {
 
 impl ProblemOptions {
     /// The problem of what is given; refuses a law, a wall and a body without their parameters.
-    pub fn of(given: &Given) -> Outcome<Self> {
-        let case = Case::of(given.clone(), given.quantities(), Objects::default(), Skin::Options)?;
+    pub fn new(given: &Entries) -> Outcome<Self> {
+        let case = Case::new(given.clone(), given.quantities(), Objects::default(), Skin::Options)?;
         Ok(Self { case, files: given.files() })
     }
 
@@ -58,7 +58,7 @@ impl ProblemOptions {
             let (hardness, works) = (field(&files.hardness_map)?, field(&files.work_of_adhesion_map)?);
             let (law, table) = files.law_table.as_deref().map(table_of).transpose()?.unzip();
             threads::use_threads(case.given().threads())?;
-            let maps = Maps { against, hardness, works: works.clone(), table: law, ..Maps::of(heights) };
+            let maps = Maps { against, hardness, works: works.clone(), table: law, ..Maps::new(heights) };
             Ok((maps, table, works))
         };
         let (maps, table, works) = processes.agree(read())?;

@@ -140,7 +140,7 @@ pub struct PlotOptions {
 
 impl PlotOptions {
     /// The chart that a command is to draw.
-    pub fn of(scene: &SceneFile) -> Self {
+    pub fn new(scene: &SceneFile) -> Self {
         Self { plot: scene.keys::<PlotKeys>().plot, paper: scene.keys::<PaperOptions>().paper() }
     }
 
@@ -160,7 +160,7 @@ impl PlotOptions {
 /// Refuses a chart in no known format, or with a file that is there without the `table`, unless `force` replaces it.
 pub fn check_plot(plot: Option<&Path>, table: &Path, force: bool) -> Outcome<()> {
     let Some(plot) = plot else { return Ok(()) };
-    Format::of(plot)?;
+    Format::from_path(plot)?;
     check_free(plot, force || table.exists(), "--plot")
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use asperity::Status;
 use asperity_maps::io::write_npy;
-use asperity_scene::{Given, Kind, Posed, Precision, Skin, Solved, gap_to_write, keys};
+use asperity_scene::{Entries, Kind, Posed, Precision, Skin, Solved, gap_to_write, keys};
 use serde_json::json;
 
 use crate::command::Call;
@@ -51,8 +51,8 @@ keys! {
 }
 
 /// The problem of what is given; refuses a surface that yields.
-pub fn problem(given: &Given) -> Outcome<ProblemOptions> {
-    let problem = ProblemOptions::of(given)?;
+pub fn problem(given: &Entries) -> Outcome<ProblemOptions> {
+    let problem = ProblemOptions::new(given)?;
     problem.case.check_table()?;
     problem.case.check_elastic(
         "a surface that yields bears another tension after each load of the search: follow it by asperity cycle",

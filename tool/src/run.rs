@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity_maps::io::read_topography;
-use asperity_scene::{AdhesionKeys, Given, Keys, Kind, chosen, keys};
+use asperity_scene::{AdhesionKeys, Entries, Keys, Kind, chosen, keys};
 use clap::{Arg, ArgMatches, value_parser};
 use toml::Value;
 
@@ -88,13 +88,13 @@ pub fn scene(tool: &clap::Command, command: &Command, matches: &ArgMatches) -> O
     let replaced = replaced(command, &beside);
     entries.retain(|(name, _)| !replaced.iter().any(|key| key.replace('_', "-") == *name));
     let reader = Reader { command, tool, folder: path.parent().unwrap_or(Path::new("")) };
-    let given = reader.read(&entries).and_then(|given| reader.complete(&Given::all([&beside, &given])));
+    let given = reader.read(&entries).and_then(|given| reader.complete(&Entries::all([&beside, &given])));
     Ok(SceneFile { command: command.name, given: given.map_err(refuse)? })
 }
 
 /// The keys of a scene that others which are given beside it replace: the same ones, those of which one alone can be
 /// given, without adhesion all of it, and the side lengths of a file of heights with other ones.
-fn replaced(command: &Command, beside: &Given) -> Vec<&'static str> {
+fn replaced(command: &Command, beside: &Entries) -> Vec<&'static str> {
     let mut replaced: Vec<_> =
         beside.entries().flat_map(|(key, _)| [Some(key.name), key.kind.replaces]).flatten().collect();
     let one_of = (command.one_of)();

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use asperity::Error;
-use asperity_scene::{Given, Key, Keys, Values};
+use asperity_scene::{Entries, Key, Keys, Values};
 use toml::Value;
 
 use crate::outcome::Outcome;
@@ -16,7 +16,7 @@ use crate::output::{OutputFile, absolute, check_free, resolved, with_suffix, wri
 #[derive(Clone)]
 pub struct SceneFile {
     pub command: &'static str,
-    pub given: Given,
+    pub given: Entries,
 }
 
 /// The beginning of the file. A file with another beginning is not replaced.

@@ -59,7 +59,7 @@ struct Check {
 }
 
 impl Check {
-    fn of(report: &Report, what: &'static str, [found, theory, allowed]: [f64; 3]) -> Self {
+    fn new(report: &Report, what: &'static str, [found, theory, allowed]: [f64; 3]) -> Self {
         let (precision, status, difference) = (report.precision, report.status, (found - theory).abs());
         let ok = status == Status::Converged && difference <= allowed;
         Self { what, precision, found, theory, difference, allowed, status, ok }
@@ -117,11 +117,11 @@ fn table(checks: &[Check]) -> String {
 }
 
 /// What is found in a report, and by the greatest pressure.
-type Found = fn(&Report, f64) -> f64;
+type Figure = fn(&Report, f64) -> f64;
 
 /// What is compared of a contact: its name, how it is found, its value in theory, the difference that the grid
 /// explains, and what share of theory's value the tolerance of the solve adds to it.
-type Compared = (&'static str, Found, f64, f64, f64);
+type Compared = (&'static str, Figure, f64, f64, f64);
 
 /// A surface on a half-space of contact modulus 1, with its law and its load.
 type Contact<'a> = (&'a Surface, Formula, Control);
@@ -141,7 +141,7 @@ fn compared<T: Scalar>(contact: &Contact<'_>, all: &[Compared]) -> asperity::Res
     let Solution { report, pressure, .. } = &solved::<T>(contact)?;
     let greatest = pressure.iter().fold(0.0, |greatest: f64, pressure| greatest.max(pressure.widen()));
     let check = |&(what, found, theory, error, share): &Compared| {
-        Check::of(report, what, [found(report, greatest), theory, error + share * report.tolerance * theory.abs()])
+        Check::new(report, what, [found(report, greatest), theory, error + share * report.tolerance * theory.abs()])
     };
     Ok(all.iter().map(check).collect())
 }
@@ -160,8 +160,8 @@ fn known() -> Outcome<Vec<Check>> {
 }
 
 fn spheres(mut check: impl FnMut(Contact<'_>, &[Compared]) -> Outcome<()>) -> Outcome<()> {
-    let pressure: Found = |report, _| report.mean_pressure;
-    let radius: Found = |report, _| (report.contact_fraction / PI).sqrt();
+    let pressure: Figure = |report, _| report.mean_pressure;
+    let radius: Figure = |report, _| (report.contact_fraction / PI).sqrt();
     let (grid, spacing) = (Grid::square(NODES, 1.0)?, 1.0 / NODES as f64);
     let sphere = &Surface::paraboloid(grid, RADIUS)?;
 
@@ -188,14 +188,15 @@ fn spheres(mut check: impl FnMut(Contact<'_>, &[Compared]) -> Outcome<()>) -> Ou
 }
 
 fn waves(mut check: impl FnMut(Contact<'_>, &[Compared]) -> Outcome<()>) -> Outcome<()> {
-    let pressure: Found = |report, _| report.mean_pressure;
-    let half_width: Found = |report, _| 0.5 * report.contact_fraction;
+    let pressure: Figure = |report, _| report.mean_pressure;
+    let half_width: Figure = |report, _| 0.5 * report.contact_fraction;
     let (grid, ridges) =
         (Grid::square(NODES, 1.0)?, |nodes: usize| Surface::wave(Grid::line(nodes, 1.0)?, AMPLITUDE, 1));
 
     // a wave in both directions: its pressure is one Fourier mode, exact on any grid
     let closing = closing_pressure_2d(AMPLITUDE, 1.0, 1.0)?;
-    let (wave, mean, greatest): (_, _, Found) = (&Surface::wave_2d(grid, AMPLITUDE, 1)?, 1.1 * closing, |_, most| most);
+    let (wave, mean, greatest): (_, _, Figure) =
+        (&Surface::wave_2d(grid, AMPLITUDE, 1)?, 1.1 * closing, |_, most| most);
     let all = [("wave in full contact, greatest pressure", greatest, mean + closing, 0.0, 1.0)];
     check((wave, Arc::new(NoAdhesion), Control::MeanPressure(mean)), &all)?;
 
@@ -228,7 +229,7 @@ fn rough() -> Outcome<Vec<Check>> {
     let ((double, of_double), (single, of_single)) = (on_threads::<f64>(&contact)?, on_threads::<f32>(&contact)?);
     let mut checks: Vec<_> = of_double.into_iter().chain(of_single).collect();
     let gaps = [single.mean_gap, double.mean_gap, single.tolerance * double.mean_gap];
-    checks.push(Check::of(&single, "rough contact, mean gap in f32 against f64", gaps));
+    checks.push(Check::new(&single, "rough contact, mean gap in f32 against f64", gaps));
     Ok(checks)
 }
 
@@ -242,6 +243,6 @@ fn on_threads<T: Scalar>(contact: &Contact<'_>) -> Outcome<(Report, Option<Check
     let all = on(threads::count().max(2))??;
     let differing = |a: &Array2<T>, b: &Array2<T>| a.iter().zip(b).filter(|(a, b)| a != b).count();
     let count = (differing(&one.gap, &all.gap) + differing(&one.pressure, &all.pressure)) as f64;
-    let check = Check::of(&one.report, "rough contact, values that differ with the threads", [count, 0.0, 0.0]);
+    let check = Check::new(&one.report, "rough contact, values that differ with the threads", [count, 0.0, 0.0]);
     Ok((one.report, Some(check)))
 }

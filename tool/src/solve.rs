@@ -104,7 +104,7 @@ pub fn files() -> Vec<String> {
 
 /// Runs the command; whether it converged.
 pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
-    let problem = &ProblemOptions::of(&scene.given)?;
+    let problem = &ProblemOptions::new(&scene.given)?;
     let options = scene.keys::<Options>();
     options.check_asked(problem, processes)?;
     scene.keys::<MapColours>().check()?;

@@ -93,7 +93,7 @@ fn part(text: &str) -> Result<(usize, usize), String> {
 /// Runs the command; whether all rows converged.
 pub fn run(&Call { scene, processes }: &Call<'_>) -> Outcome<bool> {
     let Options { study: path, jobs, slice, list, out, force } = scene.keys();
-    let (plot, printing) = (PlotOptions::of(scene), scene.keys::<Printing>());
+    let (plot, printing) = (PlotOptions::new(scene), scene.keys::<Printing>());
     let tool = parser();
     let study = Study::read(&tool, &path, out.as_deref())?;
     let (cases, out) = (study.cases.len(), &study.out);

@@ -7,7 +7,7 @@ use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Body, BodyForm, Given, Kind, Roughness, RoughnessKeys, keys, statistics};
+use asperity_scene::{Body, BodyForm, Entries, Kind, Roughness, RoughnessKeys, keys, statistics};
 use serde_json::{Value, json};
 
 use crate::command::Call;
@@ -70,11 +70,11 @@ struct Described {
 }
 
 /// The map of the surface, without a file.
-pub fn map(given: &Given) -> Outcome<Topography> {
+pub fn map(given: &Entries) -> Outcome<Topography> {
     Ok(described(given)?.make()?.1)
 }
 
-fn described(given: &Given) -> Outcome<Described> {
+fn described(given: &Entries) -> Outcome<Described> {
     let is_si = given.quantities().is_si();
     let shape = in_options(given.shape())?;
     let (body, roughness): (Body, Roughness) = (given.object()?, given.object()?);

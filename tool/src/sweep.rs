@@ -58,20 +58,20 @@ pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let options = &call.scene.keys::<Options>();
     let Options { out, format, fields, .. } = options;
     let format = format.map_or_else(|| format_of(out, ", or give --format"), Ok)?;
-    let table = TableOptions::of(call, out, format, fields.as_deref())?;
-    call.processes.first(|| PlotOptions::of(call.scene).check(out, table.manner.force))?;
+    let table = TableOptions::new(call, out, format, fields.as_deref())?;
+    call.processes.first(|| PlotOptions::new(call.scene).check(out, table.manner.force))?;
     table.fill(options)
 }
 
 impl Fill for Options {
     fn theories(&self, surface: &Surface, scene: &Scene) -> Outcome<Option<Theories>> {
-        self.theory.then(|| in_options(Theories::of(surface, scene))).transpose()
+        self.theory.then(|| in_options(Theories::new(surface, scene))).transpose()
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve()?;
         table.first(|| {
-            PlotOptions::of(table.options.scene).draw(&rows, &table.rows.facts().units, table.theories.as_ref())
+            PlotOptions::new(table.options.scene).draw(&rows, &table.rows.facts().units, table.theories.as_ref())
         })?;
         table.options.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {

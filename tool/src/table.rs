@@ -6,7 +6,7 @@ use std::path::Path;
 use asperity::{Control, Error, Surface};
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    Account, After, Boundary, CycleLimits, Format, Given, Kind, Load, Precision, Row, Rows, Scene, Session, Skin,
+    Account, After, Boundary, CycleLimits, Entries, Format, Kind, Load, Precision, Row, Rows, Scene, Session, Skin,
     TableFile, Way, keys, shortfalls,
 };
 use serde_json::{Map, Value, json};
@@ -60,9 +60,9 @@ pub struct TableOptions<'a> {
 
 impl<'a> TableOptions<'a> {
     /// The options of a call for a table in a format, with a folder for fields if they are wanted.
-    pub fn of(call: &Call<'a>, out: &'a Path, format: Format, fields: Option<&'a Path>) -> Outcome<Self> {
+    pub fn new(call: &Call<'a>, out: &'a Path, format: Format, fields: Option<&'a Path>) -> Outcome<Self> {
         let &Call { scene, processes } = call;
-        let (problem, ForceKeys { force }) = (ProblemOptions::of(&scene.given)?, scene.keys());
+        let (problem, ForceKeys { force }) = (ProblemOptions::new(&scene.given)?, scene.keys());
         let manner = Manner { force, strictness: scene.keys(), printing: scene.keys() };
         Ok(Self { problem, out, format, fields, scene, processes, manner, interface: false })
     }
@@ -71,7 +71,7 @@ impl<'a> TableOptions<'a> {
 /// The format of a table by the ending of its name; `or` is what else than another name would do.
 pub fn format_of(out: &Path, or: &str) -> Outcome<Format> {
     let refused = || Error::file(out, format!("does not end in .csv or .jsonl: rename it{or}"));
-    Ok(Format::of(out).ok_or_else(refused)?)
+    Ok(Format::from_path(out).ok_or_else(refused)?)
 }
 
 /// The number of rows that there will be, if it is known, after a word.
@@ -82,7 +82,7 @@ fn of_rows<T: Scalar>(rows: &Rows<T>, word: &str) -> String {
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
 pub trait Fill {
     /// The way through the loads.
-    fn way(&self, loads: &[Load], full: f64, _: &Given) -> Outcome<Way> {
+    fn way(&self, loads: &[Load], full: f64, _: &Entries) -> Outcome<Way> {
         Ok(Way::sweep(loads, full))
     }
 

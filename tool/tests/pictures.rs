@@ -76,7 +76,7 @@ fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     };
     let said = warned(&format!("{solve} --out plain"));
     let pressures = read_field(bench.path("plain/contact_pressure.npy")).unwrap();
-    let scale = LoadScale::of(&pressures, None);
+    let scale = LoadScale::from_values(&pressures, None);
     assert!(scale.end < 0.7 * scale.greatest && scale.beyond > 0.05, "{scale:?}");
     let caption = format!("{:.0} % of the load is carried above", 100.0 * scale.beyond);
     bench.said("report plain");

@@ -37,7 +37,7 @@ type Curve = (String, Vec<(Option<f64>, Option<f64>)>);
 /// A chart by the keys of `Chart`, and the width of its picture in points.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Given {
+struct ChartKeys {
     title: String,
     caption: String,
     x_label: String,
@@ -56,7 +56,7 @@ const NARROWEST: f64 = 200.0;
 
 /// The chart as SVG.
 pub fn chart(given: &str) -> Outcome<String> {
-    let given: Given = serde_json::from_str(given)?;
+    let given: ChartKeys = serde_json::from_str(given)?;
     let number = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let curve = |(name, points): &Curve| {
         (name.clone(), points.iter().map(|(x, y)| (number(*x), number(*y))).collect::<Vec<_>>())

@@ -14,7 +14,7 @@ use asperity_scene::{
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use crate::given::{read, reason};
+use crate::entries::{read, reason};
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, of_problem};
 use crate::state::{NOT_BEGUN, extremes, histogram};
@@ -232,7 +232,7 @@ impl Engine {
     fn pose(&mut self, case: &Case, goes_on: bool) -> Outcome<&mut Problem> {
         let mut before = self.problem.take();
         let start = self.start.take();
-        let problem = Problem::of(case, self.surface()?, self.origin.name(), &mut before, start, goes_on);
+        let problem = Problem::new(case, self.surface()?, self.origin.name(), &mut before, start, goes_on);
         self.problem = before;
         Ok(self.problem.insert(problem?))
     }
@@ -281,5 +281,5 @@ impl Engine {
 fn case(given: &str) -> Outcome<Case> {
     let given = read(given, of_problem())?;
     let quantities = given.quantities();
-    Case::of(given, quantities, Objects::default(), Skin::Keywords)
+    Case::new(given, quantities, Objects::default(), Skin::Keywords)
 }

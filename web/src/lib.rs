@@ -5,7 +5,7 @@
 
 mod drawn;
 mod engine;
-mod given;
+mod entries;
 mod lines;
 mod observed;
 mod problem;

@@ -11,7 +11,7 @@ const MADE: &str = "made.npz";
 pub const START: &str = "start.npz";
 
 /// Keys and values as they were typed.
-type Typed = Map<String, Value>;
+type KeyValues = Map<String, Value>;
 
 /// Where a surface comes from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Origin {
     /// The map.
     pub source: Source,
     /// The steps of its preparation, if there were any.
-    pub steps: Option<Typed>,
+    pub steps: Option<KeyValues>,
 }
 
 /// Where a map comes from.
@@ -30,15 +30,15 @@ pub enum Source {
         /// The name of the file.
         name: String,
         /// How it is read, where that was chosen: its channel, and whether masked points are missing.
-        reading: Typed,
+        reading: KeyValues,
     },
     /// The keys of a made surface.
-    Made(Typed),
+    Made(KeyValues),
 }
 
 impl Default for Source {
     fn default() -> Self {
-        Self::Made(Typed::new())
+        Self::Made(KeyValues::new())
     }
 }
 
@@ -52,7 +52,7 @@ impl Origin {
     }
 
     /// The commands that make the surface and solve on it.
-    pub fn shell(&self, typed: &Typed, started: bool) -> Vec<String> {
+    pub fn shell(&self, typed: &KeyValues, started: bool) -> Vec<String> {
         let mut lines = Vec::new();
         let prepared = self.steps.is_some();
         let map = match &self.source {
@@ -78,7 +78,7 @@ impl Origin {
     }
 
     /// The same in Python.
-    pub fn python(&self, typed: &Typed, started: bool) -> String {
+    pub fn python(&self, typed: &KeyValues, started: bool) -> String {
         let mut lines = vec!["import asperity".to_owned(), String::new()];
         let mut heights = match &self.source {
             Source::Made(typed) => {
@@ -112,7 +112,7 @@ impl Origin {
 }
 
 /// The lines that make a surface in Python.
-fn made(typed: &Typed) -> Vec<String> {
+fn made(typed: &KeyValues) -> Vec<String> {
     let form = typed.get("form").and_then(Value::as_str).unwrap_or("self-affine").replace('-', "_");
     let shape = match (typed.get("size"), typed.get("shape")) {
         (Some(size), _) => python(size),
@@ -146,7 +146,7 @@ fn made(typed: &Typed) -> Vec<String> {
 }
 
 /// The options of a command.
-fn options(typed: &Typed) -> String {
+fn options(typed: &KeyValues) -> String {
     let option = |(key, value): (&String, &Value)| {
         let name = key.replace('_', "-");
         match value {
@@ -203,7 +203,7 @@ fn quoted(text: &str) -> String {
 }
 
 /// The scene of a solve on the file of the surface, for `asperity run`.
-pub fn scene(typed: &Typed, started: bool) -> String {
+pub fn scene(typed: &KeyValues, started: bool) -> String {
     let mut text = format!(
         "# Written by asperity {}; `asperity run FILE` repeats the run\ncommand = \"solve\"\nheights = \"{HEIGHTS}\"\n",
         env!("CARGO_PKG_VERSION")

@@ -8,7 +8,7 @@ use asperity_scene::{
     SurfaceKeys, Way, either, without_files,
 };
 use ndarray::Array2;
-use serde_json::{Map as Typed, Value};
+use serde_json::{Map as KeyValues, Value};
 
 use crate::state::State;
 
@@ -27,10 +27,10 @@ fn of_one_solve() -> impl Iterator<Item = &'static Key> {
 /// A contact problem on a surface, with its solutions.
 pub struct Problem {
     /// What poses it, as it was typed.
-    posed: Typed<String, Value>,
+    posed: KeyValues<String, Value>,
     state: Either<State<f32>, State<f64>>,
     /// What the last solve was asked, as it was typed, and whether it started from another solution.
-    asked: Option<(Typed<String, Value>, bool)>,
+    asked: Option<(KeyValues<String, Value>, bool)>,
 }
 
 impl Problem {
@@ -39,7 +39,7 @@ impl Problem {
     ///
     /// # Errors
     /// The key and the remedy, and errors of the surface, the law and the body.
-    pub fn of(
+    pub fn new(
         case: &Case,
         map: &Topography,
         name: &str,
@@ -54,9 +54,9 @@ impl Problem {
         }
         let before = before.as_ref().and_then(Self::gap).or(start);
         let processes = Processes::start()?;
-        let posed = case.on(Maps::of(Map::whole(Some(name.to_owned()), map.clone())), 1, &processes)?;
+        let posed = case.on(Maps::new(Map::whole(Some(name.to_owned()), map.clone())), 1, &processes)?;
         let (surface, part) = (posed.surface.clone(), posed.part);
-        let state = match AnySession::of(posed, &processes)? {
+        let state = match AnySession::new(posed, &processes)? {
             Either::F32(session) => Either::F32(State::new(session, surface, part, before)),
             Either::F64(session) => Either::F64(State::new(session, surface, part, before)),
         };
@@ -102,7 +102,7 @@ impl Problem {
 
     /// What the last solve was asked, and whether it started from another equilibrium, which decides on its own with
     /// adhesion.
-    pub fn request(&self) -> Option<(&Typed<String, Value>, bool)> {
+    pub fn request(&self) -> Option<(&KeyValues<String, Value>, bool)> {
         self.asked.as_ref().map(|(typed, started)| (typed, *started))
     }
 

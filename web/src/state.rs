@@ -11,7 +11,7 @@ use asperity_plot::{Distribution, LoadScale};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, After, Case, Found, Inputs, Load, Part, Rows, Scalar, Session, Skin, Way, csv, gap_to_write, rows,
+    Account, After, Answer, Case, Inputs, Load, Part, Rows, Scalar, Session, Skin, Way, csv, gap_to_write, rows,
     shortfalls,
 };
 use ndarray::Array2;
@@ -44,7 +44,7 @@ pub struct State<T: Scalar> {
 
 /// A solution with its account.
 struct Last<T: Scalar> {
-    found: Found<T>,
+    found: Answer<T>,
     account: Account,
     /// The gap from which an adhesive solve started, if that was not the default.
     start: Option<Array2<T>>,
@@ -113,7 +113,7 @@ impl<T: Scalar> State<T> {
             if self.session.facts.scene.adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
         let [tension, compression] = [-1.0, 1.0].map(|sign| {
             let values: Vec<f64> = pressure.iter().map(|value| sign * value.widen()).collect();
-            LoadScale::of(&values, None).end
+            LoadScale::from_values(&values, None).end
         });
         let rows = rows(&[account], &self.session.facts.units, Skin::Keywords);
         let rows: Vec<_> = rows.into_iter().map(|(name, texts)| (name, texts.concat())).collect();
@@ -274,7 +274,7 @@ impl<T: Scalar> State<T> {
 
 /// The distribution of values with a unit, in so many classes.
 pub fn histogram(values: impl Iterator<Item = f64> + Clone, classes: usize, unit: Option<&str>) -> Value {
-    let Distribution { curve, beyond, .. } = Distribution::of(values, classes, unit);
+    let Distribution { curve, beyond, .. } = Distribution::from_values(values, classes, unit);
     json!({ "curve": curve, "beyond": beyond })
 }
 

@@ -16,15 +16,15 @@ struct Member {
 impl Clusters {
     /// As many nodes, each a cluster of its own.
     pub fn new(nodes: usize) -> Self {
-        Self::of(nodes, 1)
+        Self::alone(nodes, 1)
     }
 
     /// As many nodes, none in a cluster.
     pub fn closed(nodes: usize) -> Self {
-        Self::of(nodes, 0)
+        Self::alone(nodes, 0)
     }
 
-    fn of(nodes: usize, size: u32) -> Self {
+    fn alone(nodes: usize, size: u32) -> Self {
         Self((0..nodes as u32).map(|parent| Member { parent, size, cells: [0; 2] }).collect())
     }
 

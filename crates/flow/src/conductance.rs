@@ -32,7 +32,7 @@ const PRESSED: f64 = 1e-6;
 /// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let solution = Solver::default().solve(&mut problem, Control::Approach(0.04))?; // a² = Rδ
 /// let stiffness = ContactStiffness::of(&mut problem, &solution)?;
-/// let conductance = Conductance::of(&stiffness, 1.0, (2e-8, 3e-8))?;
+/// let conductance = Conductance::from_stiffness(&stiffness, 1.0, (2e-8, 3e-8))?;
 /// let holm = 4.0 * (2.0_f64 * 0.04).sqrt() / 5e-8; // 4a/(ρ₁ + ρ₂)
 /// assert!((conductance.whole / holm - 1.0).abs() < 0.03);
 /// # Ok::<(), asperity::Error>(())
@@ -54,7 +54,7 @@ impl Conductance {
     /// # Errors
     /// [`Error::Value`] if the modulus is not positive, a resistivity is negative, both are zero, or the stiffness is
     /// negative or not a number, as with adhesion.
-    pub fn of(stiffness: &ContactStiffness, modulus: f64, resistivities: (f64, f64)) -> Result<Self> {
+    pub fn from_stiffness(stiffness: &ContactStiffness, modulus: f64, resistivities: (f64, f64)) -> Result<Self> {
         let pressure_per_length = stiffness.pressure_per_length;
         if pressure_per_length.is_nan() || pressure_per_length < 0.0 {
             let requirement = "at least zero: take the stiffness of a problem without adhesion";
@@ -91,7 +91,7 @@ impl Conductance {
     /// ```
     ///
     /// # Errors
-    /// As [`Self::of`], and [`Error::Shape`] if the contact is not on the grid.
+    /// As [`Self::from_stiffness`], and [`Error::Shape`] if the contact is not on the grid.
     pub fn of_spots(
         contact: ArrayView2<'_, bool>,
         grid: Grid,
@@ -113,6 +113,6 @@ impl Conductance {
         let mut stiffness = ContactStiffness::of(&mut problem, &solution)?;
         // the edge of a punch is where its nodes are
         stiffness.edge = None;
-        Self::of(&stiffness, 1.0, resistivities)
+        Self::from_stiffness(&stiffness, 1.0, resistivities)
     }
 }

@@ -16,7 +16,7 @@ fn of_punch(n: usize, inside: impl Fn(f64, f64) -> f64) -> (Conductance, Contact
     let mut problem = Problem::new(&punch, Boussinesq::<f64>::new(grid, MODULUS).unwrap(), NoAdhesion).unwrap();
     let solution = Solver::default().solve(&mut problem, Control::Approach(0.01)).unwrap();
     let stiffness = ContactStiffness::of(&mut problem, &solution).unwrap();
-    (Conductance::of(&stiffness, MODULUS, (0.4, 0.6)).unwrap(), stiffness)
+    (Conductance::from_stiffness(&stiffness, MODULUS, (0.4, 0.6)).unwrap(), stiffness)
 }
 
 #[test]
@@ -45,16 +45,23 @@ fn a_circle_conducts_as_holm_says_and_an_ellipse_by_its_integral() {
 #[test]
 fn resistivities_and_moduli_are_checked() {
     let (_, stiffness) = of_punch(16, |x, y| (x * x + y * y) / 0.09);
-    let refused = |modulus, resistivities| Conductance::of(&stiffness, modulus, resistivities).unwrap_err().to_string();
+    let refused = |modulus, resistivities| {
+        Conductance::from_stiffness(&stiffness, modulus, resistivities).unwrap_err().to_string()
+    };
     assert!(refused(0.0, (1.0, 1.0)).contains("contact modulus is 0"));
     assert!(refused(1.0, (-1.0, 1.0)).contains("resistivity of the first body is -1"));
     assert!(refused(1.0, (1.0, f64::NAN)).contains("resistivity of the second body"));
     assert!(refused(1.0, (0.0, 0.0)).contains("sum of both resistivities is 0"));
     // one body may conduct perfectly
-    assert!(Conductance::of(&stiffness, 1.0, (0.0, 1.0)).unwrap().whole > 0.0);
+    assert!(Conductance::from_stiffness(&stiffness, 1.0, (0.0, 1.0)).unwrap().whole > 0.0);
     let mut adhesive = stiffness;
     adhesive.pressure_per_length = -1.0;
-    assert!(Conductance::of(&adhesive, 1.0, (1.0, 1.0)).unwrap_err().to_string().contains("contact stiffness is -1"));
+    assert!(
+        Conductance::from_stiffness(&adhesive, 1.0, (1.0, 1.0))
+            .unwrap_err()
+            .to_string()
+            .contains("contact stiffness is -1")
+    );
 }
 
 #[test]
@@ -65,7 +72,7 @@ fn spots_conduct_as_the_stiffness_of_their_solution_says() {
     for pressure in [0.01, 0.1] {
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
         let stiffness = ContactStiffness::of(&mut problem, &solution).unwrap();
-        let of_stiffness = Conductance::of(&stiffness, MODULUS, (1.0, 3.0)).unwrap();
+        let of_stiffness = Conductance::from_stiffness(&stiffness, MODULUS, (1.0, 3.0)).unwrap();
         let contact = solution.gap.mapv(|gap| gap <= 0.0);
         let of_spots = Conductance::of_spots(contact.view(), grid, true, (1.0, 3.0)).unwrap();
         assert_relative_eq!(of_spots.per_area, of_stiffness.per_area, max_relative = 1e-5);
@@ -124,7 +131,7 @@ fn the_stiffness_conducts_as_a_dense_solution_of_laplace_says() {
     for pressure in [0.005, 0.05] {
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
         let stiffness = ContactStiffness::of(&mut problem, &solution).unwrap();
-        let conductance = Conductance::of(&stiffness, MODULUS, resistivities).unwrap();
+        let conductance = Conductance::from_stiffness(&stiffness, MODULUS, resistivities).unwrap();
         let contact = solution.gap.mapv(|gap| gap <= 0.0);
         let spots = contact.iter().filter(|contact| **contact).count();
         assert!(spots > 10 && spots < 240, "{spots}");

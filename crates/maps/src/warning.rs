@@ -165,7 +165,7 @@ impl Warning {
     /// it.
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let surface = &*surface.whole();
-        let extremes = Extremes::of(surface.heights());
+        let extremes = Extremes::find(surface.heights());
         let heights = surface.heights();
         if let Some(warning) = layout::byte_order(heights) {
             return vec![warning];
@@ -182,7 +182,7 @@ impl Warning {
             found.extend(codes.into_iter().map(|(value, count)| missing_code(value, count)));
             return found;
         }
-        let relief = Relief::of(surface.heights(), &extremes);
+        let relief = Relief::measure(surface.heights(), &extremes);
         let at_edges = [open_edges(&relief), ends_at_edges(&relief, surface)];
         let slope = slope(relief.rms_slope(surface.grid().spacing()), STEEP);
         found.extend(tilt(&relief, surface.grid()).into_iter().chain(at_edges.into_iter().flatten()));
@@ -211,7 +211,7 @@ impl Warning {
         if let Some(warning) = layout::byte_order(&heights) {
             return vec![warning];
         }
-        let extremes = Extremes::of(&heights);
+        let extremes = Extremes::find(&heights);
         let codes = extremes.codes().into_iter().map(|(value, count)| missing_code(value, count));
         let mut found: Vec<_> = layout::axes(&heights).into_iter().chain(codes).collect();
         if !found.is_empty() {
@@ -220,7 +220,7 @@ impl Warning {
         found.extend(map.rms_slope().and_then(|found| slope(found, STEEP_MAP)));
         let sides = map.lengths.unwrap_or((1.0, 1.0));
         if let (Ok(grid), false, 0) = (Grid::new(heights.dim(), sides), is_flat(&extremes), map.missing()) {
-            let relief = Relief::of(&heights, &extremes);
+            let relief = Relief::measure(&heights, &extremes);
             // of unknown sides the slopes would be none
             let tilt = map.lengths.and_then(|_| tilt(&relief, &grid));
             let at_edges = tilt.into_iter().chain(open_edges(&relief));

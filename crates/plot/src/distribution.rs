@@ -10,7 +10,7 @@ use crate::scale::three_digits;
 /// ```
 /// use asperity_plot::Distribution;
 /// let values = [0.0, 1.0, 3.0, 4.0, f64::NAN];
-/// assert_eq!(Distribution::of(values.into_iter(), 2, None).curve, [(1.0, 50.0), (3.0, 50.0)]);
+/// assert_eq!(Distribution::from_values(values.into_iter(), 2, None).curve, [(1.0, 50.0), (3.0, 50.0)]);
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Distribution {
 
 impl Distribution {
     /// The distribution of the values that are finite, in so many classes; the values have a `unit`.
-    pub fn of(values: impl Iterator<Item = f64> + Clone, classes: usize, unit: Option<&str>) -> Self {
+    pub fn from_values(values: impl Iterator<Item = f64> + Clone, classes: usize, unit: Option<&str>) -> Self {
         let values = values.filter(|value| value.is_finite());
         let Some((low, high)) = bulk_range(values.clone()) else { return Self::default() };
         let mut counts = vec![0_usize; classes.max(1)];

@@ -93,14 +93,14 @@ impl Format {
     ///
     /// ```
     /// use asperity_plot::Format;
-    /// assert_eq!(Format::of("loop.pdf")?, Format::Pdf);
-    /// assert!(Format::of("loop.jpg").is_err());
+    /// assert_eq!(Format::from_path("loop.pdf")?, Format::Pdf);
+    /// assert!(Format::from_path("loop.jpg").is_err());
     /// # Ok::<(), asperity::Error>(())
     /// ```
     ///
     /// # Errors
     /// [`Error::File`] if the name has another ending.
-    pub fn of(path: impl AsRef<Path>) -> Result<Self> {
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self> {
         match path.as_ref().extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
             Some("png") => Ok(Self::Png),
             Some("svg") => Ok(Self::Svg),
@@ -145,9 +145,9 @@ impl Picture {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let unwritable = |e: std::io::Error| Error::unwritable(path, e);
-        let bytes = match Format::of(path)? {
+        let bytes = match Format::from_path(path)? {
             Format::Png => {
-                let raster = Raster::of(self);
+                let raster = Raster::draw(self);
                 png::encode(raster.columns, &raster.pixels, self.dpi)
             }
             Format::Svg => svg::encode(self).map(String::into_bytes),

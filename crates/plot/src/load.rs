@@ -24,7 +24,7 @@ const MOST: usize = 1_000_000;
 /// use asperity_plot::LoadScale;
 /// let mut pressures = vec![1.0; 900];
 /// pressures.extend([13.0; 10]);
-/// let scale = LoadScale::of(&pressures, None);
+/// let scale = LoadScale::from_values(&pressures, None);
 /// assert_eq!((scale.end, scale.greatest), (1.0, 13.0));
 /// assert!((scale.beyond - 130.0 / 1030.0).abs() < 1e-12);
 /// ```
@@ -41,7 +41,7 @@ pub struct LoadScale {
 
 impl LoadScale {
     /// The scale of the positive and finite values, to a given `end`, or by the lower quartile of the load.
-    pub fn of<'a>(values: impl IntoIterator<Item = &'a f64, IntoIter: Clone>, end: Option<f64>) -> Self {
+    pub fn from_values<'a>(values: impl IntoIterator<Item = &'a f64, IntoIter: Clone>, end: Option<f64>) -> Self {
         Self::of_sign(values, 1.0, end)
     }
 

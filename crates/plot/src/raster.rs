@@ -27,7 +27,7 @@ struct Block {
 
 impl Raster {
     /// The pixels of a picture at its resolution.
-    pub(super) fn of(picture: &Picture) -> Self {
+    pub(super) fn draw(picture: &Picture) -> Self {
         let scale = picture.dpi / 72.0;
         let [columns, rows] = [picture.width, picture.height].map(|side| (side * scale).round().max(1.0) as usize);
         let mut raster = Self { columns, pixels: vec![WHITE; columns * rows], scale };

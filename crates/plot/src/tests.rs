@@ -259,7 +259,7 @@ fn pdf_has_its_objects_where_the_table_says() {
 fn more_pixels_per_inch_make_the_same_picture_larger() {
     let values = Array2::from_shape_fn((60, 60), |(i, j)| ((7 * i + 3 * j) % 10) as f64);
     let map = Map::new(values.view(), Grid::square(60, 1.0).unwrap(), Colouring::Sequential);
-    let [usual, fine] = [DPI, 2.0 * DPI].map(|dpi| Raster::of(&map.draw(dpi).unwrap()));
+    let [usual, fine] = [DPI, 2.0 * DPI].map(|dpi| Raster::draw(&map.draw(dpi).unwrap()));
     assert_eq!((fine.columns, fine.pixels.len()), (2 * usual.columns, 4 * usual.pixels.len()));
     let plot = map.draw_plot(DPI.into()).unwrap().1;
     let (left, top) = ((2.0 * plot.left) as usize, (2.0 * plot.top) as usize);
@@ -292,7 +292,7 @@ fn limits_hold_for_any_field_and_arrows_say_what_is_beyond() {
 #[test]
 fn a_distribution_leaves_out_spikes_and_says_so() {
     let mut heights: Vec<_> = (0..5000).map(|k| 1e-9 * f64::from(k).sin()).collect();
-    let of = |heights: &[f64]| Distribution::of(heights.iter().copied(), 10, Some("m"));
+    let of = |heights: &[f64]| Distribution::from_values(heights.iter().copied(), 10, Some("m"));
     let whole = of(&heights);
     assert_eq!(whole.beyond, "");
     (heights[11], heights[22], heights[33]) = (2e-7, 3e-8, -4e-8);

@@ -4,12 +4,12 @@
 //! reports and the columns of tables come from there, and the types and attributes in Python and the tables of the
 //! documents. The lists below [`Account`] say which tables, rows of summaries and headings of pages have it.
 
+mod answer;
 pub mod column;
 pub mod contact;
 mod displacement;
 mod entries;
 mod findings;
-mod found;
 mod inputs;
 pub mod interface;
 mod leaked;
@@ -31,10 +31,10 @@ use asperity::{Branch, Control, Real, Report, Status};
 use asperity_flow::Axis;
 use serde::Serialize;
 
+pub use self::answer::{Answer, Sight, check_finite};
+pub(crate) use self::answer::{Waves, warnings_of};
 pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Refinement, Search, Steadiness, Step};
 pub use self::findings::{Conducted, Findings};
-pub use self::found::{Found, Sight, check_finite};
-pub(crate) use self::found::{Waves, warnings_of};
 pub use self::inputs::Inputs;
 pub use self::leaked::{Along, Enclosed, Leaked, Narrowest, Transmissivity};
 pub use self::numbers::dimension_of_key;
@@ -60,7 +60,7 @@ record! {
     #[derive(Clone, Debug, Serialize)]
     Account of <T: Real> (
         command: &'static str,
-        found: &Found<T>,
+        found: &Answer<T>,
         report: &Report,
         share: f64,
         inputs: Inputs,
@@ -86,7 +86,7 @@ record! {
         /// Operator applications, each a forward and an inverse transform, on the finest of nested grids.
         operator_applications: usize = report.operator_applications,
         /// Nested grids, the finest last.
-        levels: Option<Vec<GridLevel>> = found.levels.as_ref().map(|all| all.iter().map(GridLevel::of).collect()),
+        levels: Option<Vec<GridLevel>> = found.levels.as_ref().map(|all| all.iter().map(GridLevel::record).collect()),
         /// Operator applications on all nested grids, in units of one on the finest.
         equivalent_applications: Option<f64> = found.equivalent_applications,
         /// Estimated errors of the finest of nested grids.

@@ -10,7 +10,7 @@ use asperity::adhesion::Formula;
 pub use self::maps::{Map, Maps, complete, sided};
 pub use self::part::Part;
 pub use self::posed::Posed;
-use crate::key::{Adhesion, After, Branches, Given, Load, Quantities, Request, Scene, Skin, Symbol, worded};
+use crate::key::{Adhesion, After, Branches, Entries, Load, Quantities, Request, Scene, Skin, Symbol, worded};
 use crate::outcome::Outcome;
 
 /// What a face gives as objects, in the place of keys.
@@ -29,7 +29,7 @@ pub struct Objects {
 /// What is asked, checked: units, law, wall and body. A case alone has a formula and is posed on maps.
 #[derive(Clone)]
 pub struct Case {
-    given: Given,
+    given: Entries,
     quantities: Quantities,
     scene: Scene,
     law: Option<Formula>,
@@ -43,7 +43,7 @@ impl Case {
     /// # Errors
     /// The key and the remedy, for units of some quantities, a law, a wall or a body without their parameters, and
     /// parameters of another one.
-    pub fn of(given: Given, quantities: Quantities, objects: Objects, skin: Skin) -> Outcome<Self> {
+    pub fn new(given: Entries, quantities: Quantities, objects: Objects, skin: Skin) -> Outcome<Self> {
         let Objects { law, symbol, has_hardness, numbers_are_si } = objects;
         if !numbers_are_si {
             quantities.check(skin)?;
@@ -69,7 +69,7 @@ impl Case {
     ///
     /// # Errors
     /// The key and the remedy for units of some quantities.
-    pub fn with(&self, parts: &[Given]) -> Outcome<Self> {
+    pub fn with(&self, parts: &[Entries]) -> Outcome<Self> {
         let of_call = parts.iter().map(|part| match self.numbers_are_si {
             true => part.quantities().in_si(),
             false => part.quantities(),
@@ -78,7 +78,7 @@ impl Case {
         if !self.numbers_are_si {
             quantities.check(self.skin)?;
         }
-        Ok(Self { given: Given::all(std::iter::once(&self.given).chain(parts)), quantities, ..self.clone() })
+        Ok(Self { given: Entries::all(std::iter::once(&self.given).chain(parts)), quantities, ..self.clone() })
     }
 
     /// The case as a part of a command with these quantities, which all have units or none has.
@@ -87,7 +87,7 @@ impl Case {
     }
 
     /// What was given.
-    pub fn given(&self) -> &Given {
+    pub fn given(&self) -> &Entries {
         &self.given
     }
 
@@ -114,7 +114,7 @@ impl Case {
     /// The load of a solve.
     ///
     /// # Errors
-    /// As [`Given::load`] and [`Load::check`].
+    /// As [`Entries::load`] and [`Load::check`].
     pub fn load(&self) -> Outcome<Load> {
         let load = self.worded(self.given.load())?;
         self.check_loads(&[load])?;
@@ -124,7 +124,7 @@ impl Case {
     /// The loads of a table.
     ///
     /// # Errors
-    /// As [`Given::loads`] and [`Load::check`].
+    /// As [`Entries::loads`] and [`Load::check`].
     pub fn loads(&self) -> Outcome<Vec<Load>> {
         let loads = self.worded(self.given.loads())?;
         self.check_loads(&loads)?;
@@ -140,7 +140,7 @@ impl Case {
     /// The findings that are asked for after a state; an interface has the contact stiffness.
     ///
     /// # Errors
-    /// As [`Given::after`] and [`After::check`].
+    /// As [`Entries::after`] and [`After::check`].
     pub fn after(&self, is_interface: bool) -> Outcome<After> {
         let after = self.worded(self.given.after())?;
         let after = After { stiffness: after.stiffness || is_interface, ..after };

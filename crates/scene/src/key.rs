@@ -11,7 +11,7 @@ pub mod allowed;
 mod body;
 mod boundary;
 mod elastic;
-mod given;
+mod entries;
 mod keywords;
 mod kind;
 mod laws;
@@ -44,7 +44,7 @@ pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKey
 pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
 pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
-pub use self::given::{Choice, Given, Readable, Typed};
+pub use self::entries::{Choice, Entries, Input, Readable};
 pub use self::keywords::KEYWORDS;
 pub use self::kind::{Form, Kind, Values, Word};
 pub use self::laws::{LAWS, Law, tabulated};
@@ -56,7 +56,7 @@ pub use self::number::{Measure, Number};
 pub use self::options::chosen;
 pub use self::pair::between;
 pub use self::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
-pub use self::quantities::{Measured, Quantities};
+pub use self::quantities::{Quantities, QuantityEntry};
 pub use self::request::{NestedKeys, PathKeys, Request};
 pub use self::scalar::Scalar;
 pub use self::scene::{Branches, Files, Precision, Scene, SolverKeys};
@@ -68,7 +68,7 @@ pub use self::words::{Skin, worded};
 pub(crate) use self::after::{ERROR, LEAKAGE};
 pub(crate) use self::allowed::{Range, unit};
 pub(crate) use self::boundary::peak;
-pub(crate) use self::given::Read;
+pub(crate) use self::entries::Read;
 pub(crate) use self::laws::WORK;
 pub(crate) use self::macros::{choice, keys, record};
 pub(crate) use self::number::is_told;
@@ -103,7 +103,7 @@ pub trait Keys {
     const KEYS: &'static [Key];
 
     /// What was given for them.
-    fn of(given: &Given) -> Self;
+    fn read(given: &Entries) -> Self;
 }
 
 /// A list of keys, or several in the order of the help.
@@ -192,11 +192,11 @@ impl Key {
         Ok(match self.kind.values {
             Values::Quantity(dimension, of) => Read::number(dimension.within(range(of))(text)?),
             Values::Number(of) => Read::number(Quantity::number(range(of).number(text)?)),
-            Values::Whole(from, to, words) => Read::of(whole(text, from..=to, words)?),
-            Values::Switch => Read::of(text.parse::<bool>().map_err(|_| "it must be true or false")?),
-            Values::Word(words) => Read::of(self.word(words, text)?),
-            Values::Text(check) => check(text).map(|()| Read::of(text))?,
-            Values::File => Read::of(text),
+            Values::Whole(from, to, words) => Read::new(whole(text, from..=to, words)?),
+            Values::Switch => Read::new(text.parse::<bool>().map_err(|_| "it must be true or false")?),
+            Values::Word(words) => Read::new(self.word(words, text)?),
+            Values::Text(check) => check(text).map(|()| Read::new(text))?,
+            Values::File => Read::new(text),
             Values::Quantities(dimension, of) => list(parsed(text, &dimension.within(range(of)))?),
             Values::Numbers(of) => list(parsed(text, &|text| range(of).number(text).map(Quantity::number))?),
         })

@@ -24,7 +24,7 @@ pub use self::one_grid::OneGrid;
 pub use self::rows::{Next, Rows, TableFile};
 use crate::Either;
 use crate::account::row::Kind;
-use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
+use crate::account::{Account, Answer, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
 use crate::case::{Part, Posed};
 use crate::key::{After, Constraint, Goal, Notice, Precision, Request, Scalar, Scene, Skin, Units, worded};
 use crate::outcome::Outcome;
@@ -74,7 +74,7 @@ pub struct Facts {
 /// A solution with its account.
 pub struct Solved<T: Real> {
     /// The findings.
-    pub found: Found<T>,
+    pub found: Answer<T>,
     /// The account, which a look completes.
     pub account: Account,
     /// The facts of its session.
@@ -93,7 +93,7 @@ impl AnySession {
     ///
     /// # Errors
     /// Those of [`Session::new`].
-    pub fn of(posed: Posed, processes: &Processes) -> Outcome<Self> {
+    pub fn new(posed: Posed, processes: &Processes) -> Outcome<Self> {
         Ok(match posed.scene.precision {
             Precision::F32 => Self::F32(Session::new(posed, false, processes)?.with_slopes()),
             Precision::F64 => Self::F64(Session::new(posed, false, processes)?.with_slopes()),
@@ -124,7 +124,7 @@ impl<T: Real> Solved<T> {
             None => Kind::Sweep,
         };
         let names = kind.columns(after, &facts.scene.adhesion);
-        let mut cells = Row::of(found, account, &sizes, None, facts.seed).cells(&names);
+        let mut cells = Row::record(found, account, &sizes, None, facts.seed).cells(&names);
         for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
             cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
         }
@@ -215,13 +215,13 @@ impl Facts {
     }
 
     /// What a command found, with its account.
-    fn solved<T: Scalar>(mut self, command: &'static str, found: Found<T>) -> Outcome<Solved<T>> {
+    fn solved<T: Scalar>(mut self, command: &'static str, found: Answer<T>) -> Outcome<Solved<T>> {
         let account = self.account(command, &found)?;
         Ok(Solved { found, account, facts: self })
     }
 
     /// The account of what a command found; a solve that an observer ended may be anywhere.
-    fn account<T: Scalar>(&mut self, command: &'static str, found: &Found<T>) -> Outcome<Account> {
+    fn account<T: Scalar>(&mut self, command: &'static str, found: &Answer<T>) -> Outcome<Account> {
         if found.solution.report.status != Status::Stopped {
             self.worded(check_finite(&found.solution))?;
         }
@@ -231,7 +231,7 @@ impl Facts {
     }
 
     /// The warnings of the input and of a state.
-    fn look<T: Scalar>(&mut self, found: &Found<T>) -> Outcome<Vec<Notice>> {
+    fn look<T: Scalar>(&mut self, found: &Answer<T>) -> Outcome<Vec<Notice>> {
         let mut new = Vec::new();
         if is_whole(&found.solution.grid) {
             let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.scars_removed));

@@ -74,7 +74,7 @@ pub struct Table {
 
 impl Format {
     /// The format of a file by its name.
-    pub fn of(path: &Path) -> Option<Self> {
+    pub fn from_path(path: &Path) -> Option<Self> {
         Self::named(&path.extension()?.to_str()?.to_lowercase())
     }
 

@@ -12,10 +12,10 @@ use asperity_scene::processes::Processes;
 use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, AdhesionKeys, After, Boundary, Case, Elastic, Found, Given, Goal, GridErrors, GridLevel, Inputs,
-    Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row, Rows, Scene, Search,
-    Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Typed, Way, check_finite, rows,
-    shortfalls, without_files, worded,
+    Account, Adhesion, AdhesionKeys, After, Answer, Boundary, Case, Elastic, Entries, Goal, GridErrors, GridLevel,
+    Input, Inputs, Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row, Rows,
+    Scene, Search, Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Way, check_finite,
+    rows, shortfalls, without_files, worded,
 };
 use ndarray::Array2;
 use serde::Deserialize;
@@ -31,7 +31,7 @@ fn names(lists: &[&[Number]]) -> Vec<&'static str> {
 }
 
 fn scene() -> Scene {
-    let adhesion = Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::of("exponential") };
+    let adhesion = Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::record("exponential") };
     Scene { adhesion, ..Scene::default() }
 }
 
@@ -49,18 +49,18 @@ fn session(scene: &Scene, surface: Surface, is_strict: bool) -> Outcome<Session<
     let known = |name: &str| keys.iter().any(|key| key.name == name);
     let Value::Object(all) = json!(scene) else { unreachable!() };
     let typed = all.into_iter().filter(|(name, value)| known(name) && !value.is_null());
-    let typed: Vec<_> = typed.map(|(name, value)| (name, Typed::deserialize(value).unwrap())).collect();
-    let given = Given::read(&keys, typed)?;
-    let case = Case::of(given, Quantities::default(), Objects::default(), Skin::Keywords)?;
+    let typed: Vec<_> = typed.map(|(name, value)| (name, Input::deserialize(value).unwrap())).collect();
+    let given = Entries::read(&keys, typed)?;
+    let case = Case::new(given, Quantities::default(), Objects::default(), Skin::Keywords)?;
     let (map, processes) = (Map::whole(None, surface.into()), Processes::start()?);
-    Session::new(case.on(Maps::of(map), 1, &processes)?, is_strict, &processes)
+    Session::new(case.on(Maps::new(map), 1, &processes)?, is_strict, &processes)
 }
 
 fn solved(asked: &Request) -> Solved<f64> {
     posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap()
 }
 
-fn next(rows: &mut Rows<f64>) -> Option<(Found<f64>, Row)> {
+fn next(rows: &mut Rows<f64>) -> Option<(Answer<f64>, Row)> {
     rows.next(&mut |_| ControlFlow::Continue(())).unwrap()
 }
 
@@ -162,7 +162,7 @@ fn continued(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array
 fn at_once(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array2<f64>>)> {
     let mut rows = posed_by(scene).begin(way.clone(), after, false, None, None).unwrap();
     let names = rows.columns();
-    let cells = |(found, row): (Found<f64>, Row)| {
+    let cells = |(found, row): (Answer<f64>, Row)| {
         assert!(names.iter().all(|name| json!(row).as_object().unwrap().contains_key(*name)));
         (row.cells(&names).into(), found.solution.plastic_depth)
     };
@@ -182,7 +182,7 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
 
 #[test]
 fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
-    let scene = Scene { adhesion: Adhesion { hardness: Some(0.08), ..Adhesion::of("none") }, ..Scene::default() };
+    let scene = Scene { adhesion: Adhesion { hardness: Some(0.08), ..Adhesion::record("none") }, ..Scene::default() };
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
@@ -254,7 +254,7 @@ fn warnings_of_the_input_stand_in_accounts_and_rows_and_may_be_errors() {
 
 #[test]
 fn a_scene_with_a_hardness_is_data_and_one_without_still_reads() {
-    let adhesion = Adhesion { hardness: Some(0.25), ..Adhesion::of("none") };
+    let adhesion = Adhesion { hardness: Some(0.25), ..Adhesion::record("none") };
     let run = Scene { adhesion, tolerance: Some(1e-6), max_iterations: Some(2000), ..Scene::default() };
     assert_eq!(serde_json::from_value::<Scene>(json!(run.inputs((4, 4), (1.0, 1.0), 1))).unwrap(), run);
     let old = json!({ "modulus": 1.0, "law": "none", "wall": "hard", "wall_stiffness": null });
@@ -326,7 +326,7 @@ fn theories_have_numbers_that_are_known() {
     let rough =
         SelfAffine::default().k_l(2.0).k_r(2.0).k_s(16.0).seed(1).surface(Grid::square(64, 1.0).unwrap()).unwrap();
     let elastic = Elastic { modulus: 2.0, ..Elastic::default() };
-    let theories = Theories::of(&rough, &Scene { elastic, ..Scene::default() }).unwrap();
+    let theories = Theories::new(&rough, &Scene { elastic, ..Scene::default() }).unwrap();
     // at three loads
     let expected = [
         (1e-3, 0.00797871263, 0.00747258970, 0.00994659216),

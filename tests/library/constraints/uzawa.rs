@@ -6,7 +6,7 @@ use super::*;
 fn uzawa_ends_on_random_hard_walls() {
     let [mut touched, mut otherwise] = [0; 2];
     for seed in 0..400 {
-        let scene = Scene::of(seed, &Features { precisions: &[Precision::Mixed], ..Features::HARD });
+        let scene = Scene::with_features(seed, &Features { precisions: &[Precision::Mixed], ..Features::HARD });
         // nothing tells how far a plane is to fall
         if scene.is_flat() {
             continue;
@@ -34,7 +34,7 @@ fn uzawa_on_random_scenes() {
     let cases = std::env::var("CASES").map_or(2000, |cases| cases.parse().unwrap());
     let mut rows = std::collections::BTreeMap::<(bool, i32), Vec<(Status, Status, f64)>>::new();
     for seed in 0..cases {
-        let scene = Scene::of(seed, &WALLED);
+        let scene = Scene::with_features(seed, &WALLED);
         // in units of the shortest wave's, or of E*/L
         let of_waves = seed % 2 == 0;
         let unit = if of_waves { 1.0 } else { scene.grid.spacing().0 / scene.grid.lengths().0 };

@@ -30,7 +30,7 @@ struct Solved {
 
 /// A scene in units of its own: sides, heights and modulus of about one.
 fn scene(seed: u64) -> Option<Scene> {
-    let scene = Scene { start: None, ..Scene::of(seed, &CONVEX) };
+    let scene = Scene { start: None, ..Scene::with_features(seed, &CONVEX) };
     let (heights, (lx, ly)) = (scene.centred(), scene.grid.lengths());
     let span = heights.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let held = matches!(scene.control, Control::MeanGap(_) | Control::MeanPressure(_));

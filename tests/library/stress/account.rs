@@ -34,7 +34,7 @@ pub(super) struct Account {
 }
 
 impl Account {
-    pub(super) fn of(seeds: std::ops::Range<u64>) -> Self {
+    pub(super) fn collect(seeds: std::ops::Range<u64>) -> Self {
         let mut account = Self::default();
         for seed in seeds {
             let scene = Scene::new(seed);

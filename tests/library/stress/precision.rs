@@ -18,7 +18,7 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     let features = Features { precisions: &[Precision::Single], ..Features::HARD };
     let (mut wrong, mut solved) = (Vec::new(), [0; 2]);
     for seed in 0..400 {
-        let mut scene = Scene::of(seed, &features);
+        let mut scene = Scene::with_features(seed, &features);
         scene.settings.tolerance = Some(1e-5);
         let springs = matches!(scene.control, Control::Spring { .. });
         let tension = matches!(scene.control, Control::MeanPressure(p) | Control::Force(p) if p < 0.0);

@@ -84,7 +84,7 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
     {
         let title = &format!("Distribution of the {x_label}");
         let Distribution { curve, beyond, .. } =
-            Distribution::of(field.iter().copied().filter(|value| *value > 0.0), CLASSES, x_unit);
+            Distribution::from_values(field.iter().copied().filter(|value| *value > 0.0), CLASSES, x_unit);
         let axes = Chart { title, caption: &beyond, x_label, x_unit, y_label, y_unit: Some("%"), ..Chart::default() };
         page.figure(&Chart { curves: vec![("", curve)], ..axes }.draw(FINE)?.svg()?);
     }

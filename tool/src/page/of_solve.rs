@@ -146,7 +146,7 @@ fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> S
     let control = report[key!(Account, control)].as_str().unwrap_or_default();
     let on_line = report[key!(Inputs, shape)][1] == 1;
     let counted = report[key!(Account, contact_fraction)].as_f64().unwrap_or_default();
-    move |key, value| match Measure::of(key, control, on_line) {
+    move |key, value| match Measure::find(key, control, on_line) {
         // a window around a tip is no area of its energy
         Measure::Of(ENERGY_PER_AREA) if report[key!(Elastic, boundary)] == "free" && key.ends_with("_energy") => {
             let area: f64 =

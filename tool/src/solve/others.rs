@@ -1,7 +1,7 @@
 //! The fields that a solve may leave besides gap and pressures: the softest mode, displacements, and the plastic depth.
 
 use asperity::{Result, Surface};
-use asperity_scene::{Case, Elastic, Found, gap_to_write};
+use asperity_scene::{Answer, Case, Elastic, gap_to_write};
 use ndarray::Array2;
 
 use super::Options;
@@ -24,7 +24,7 @@ impl Options {
 }
 
 /// These fields of what was found, on its surface if displacements are asked for.
-pub fn other_fields<T: Scalar>(found: &Found<T>, elastic: &Elastic, surface: Option<&Surface>) -> Result<Vec<Named>> {
+pub fn other_fields<T: Scalar>(found: &Answer<T>, elastic: &Elastic, surface: Option<&Surface>) -> Result<Vec<Named>> {
     let mode = found.mode.as_ref().map(|mode| mode.mapv(T::widen));
     let solution = &found.solution;
     let depth = solution.plastic_depth.as_ref().map(|depth| depth.mapv(T::widen));

@@ -12,7 +12,7 @@ const NAMES_OF_HEIGHTS: [&str; 6] = ["z", "height", "heights", "h", "elevation",
 
 impl Columns {
     /// The columns of a line, as `X[um] Y[um] Z[nm]`, `x (µm), y (µm), z (nm)` or `# columns: i;x;y;z`.
-    pub fn of(line: &str) -> Option<Self> {
+    pub fn read(line: &str) -> Option<Self> {
         let line = line.rsplit([':', '\u{ff1a}']).next()?.replace(" [", "[").replace(" (", "(");
         let mut columns: Vec<[String; 2]> = Vec::new();
         for field in fields(&line) {

@@ -13,7 +13,7 @@ struct Pair {
 
 impl Pair {
     /// The pair of a line: `name: value`, `name = value`, or fields with the name first.
-    fn of(line: &str) -> Option<Self> {
+    fn read(line: &str) -> Option<Self> {
         let fields = line.split_once("\",\"").filter(|_| line.starts_with('"'));
         let (name, value) = fields
             .or_else(|| line.split_once([':', '=', '\u{ff1a}', '\u{ff1d}']))
@@ -152,12 +152,12 @@ impl Heading {
     /// Takes a comment, or a line of words.
     pub fn read(&mut self, line: &str) {
         if self.pairs.len() < MOST_LINES {
-            self.pairs.extend(Pair::of(line));
+            self.pairs.extend(Pair::read(line));
             self.said = self.said.or_else(|| unit_in_words(line));
         }
         match &mut self.columns {
             Some(columns) => columns.take_units(line),
-            None => self.columns = Columns::of(line),
+            None => self.columns = Columns::read(line),
         }
     }
 

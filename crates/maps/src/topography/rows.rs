@@ -133,7 +133,7 @@ pub(crate) struct LineSteps {
 
 impl LineSteps {
     /// The steps of the measured points; NaN where none are.
-    pub fn of(heights: &Array2<f64>, along: ScanAxis) -> Self {
+    pub fn measure(heights: &Array2<f64>, along: ScanAxis) -> Self {
         let lines: Vec<_> = heights.lanes(Axis(usize::from(along == ScanAxis::Y))).into_iter().collect();
         let step = |pair: &[ArrayView1<'_, f64>]| {
             let steps: Vec<f64> =

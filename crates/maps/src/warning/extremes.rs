@@ -57,7 +57,7 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    pub fn of(heights: &Array2<f64>) -> Self {
+    pub fn find(heights: &Array2<f64>) -> Self {
         let finite = || heights.iter().copied().filter(|h| h.is_finite());
         let (low, high) = range(finite());
         let counts = finite().fold([0, 0], |[a, b], h| [a + usize::from(h == low), b + usize::from(h == high)]);
@@ -124,7 +124,7 @@ mod tests {
                 let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { continue };
                 let count = |value: f64| sorted.iter().filter(|&&h| h == value).count();
                 let rest: Vec<f64> = sorted.iter().copied().filter(|&h| h != low && h != high).collect();
-                let found = Extremes::of(&heights);
+                let found = Extremes::find(&heights);
                 assert_eq!((found.low, found.high, found.counts), (low, high, [low, high].map(count)));
                 let expected = rest.first().map_or(range([].into_iter()), |&first| (first, rest[rest.len() - 1]));
                 assert_eq!(found.rest, expected, "{shape:?}");

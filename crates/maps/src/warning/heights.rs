@@ -191,7 +191,7 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
 }
 
 pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
-    let Spikes { count, farthest, node: (i, j) } = Spikes::of(relief)?;
+    let Spikes { count, farthest, node: (i, j) } = Spikes::find(relief)?;
     let nodes = format!("{count} single {}", if count == 1 { "node stands" } else { "nodes stand" });
     let (times, node) = (farthest / relief.rms, format!("[{i}, {j}]"));
     Some(Warning::new(

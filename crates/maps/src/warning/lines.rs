@@ -43,7 +43,7 @@ pub(super) fn offsets(heights: &Array2<f64>, unit: f64) -> Option<Warning> {
     if nx.min(ny) < LEAST {
         return None;
     }
-    let [x, y] = AXES.map(|(axis, _)| LineSteps::of(heights, axis));
+    let [x, y] = AXES.map(|(axis, _)| LineSteps::measure(heights, axis));
     let found = [(&x, &y, "x"), (&y, &x, "y")].into_iter().find(|(lines, others, _)| are_offset(lines, others, OFFSET));
     let (lines, _, axis) = found?;
     Some(Warning::new(
@@ -79,7 +79,7 @@ impl Warning {
         }
         let mut axes = AXES;
         axes.sort_by_key(|(axis, _)| *axis != along);
-        let [asked, other] = axes.map(|(axis, _)| LineSteps::of(&map.heights, axis));
+        let [asked, other] = axes.map(|(axis, _)| LineSteps::measure(&map.heights, axis));
         if !are_offset(&other, &asked, STANDS_OUT) {
             return None;
         }

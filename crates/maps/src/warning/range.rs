@@ -41,7 +41,7 @@ impl Warning {
             return Vec::new();
         }
         let mu_rho = mu_rho(law, surface.grid(), modulus);
-        let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
+        let (range, span) = (law.hints().range.widen(), Extremes::find(surface.whole().heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
             found.push(Self::new(

@@ -86,7 +86,7 @@ pub struct Relief {
 
 impl Relief {
     /// The relief of heights that are not flat.
-    pub fn of(heights: &Array2<f64>, extremes: &Extremes) -> Self {
+    pub fn measure(heights: &Array2<f64>, extremes: &Extremes) -> Self {
         let middle = 0.5 * extremes.high + 0.5 * extremes.low;
         let inverse = (0.5 * extremes.high - 0.5 * extremes.low).recip().min(f64::MAX);
         let heights = heights.mapv(|h| (h - middle) * inverse);

@@ -25,7 +25,7 @@ impl Spikes {
     /// The nodes at a distance from the mean of their eight neighbours (two on a line) that exceeds the rms height
     /// about the plane, [`SPIKE`] times the rms of this distance, and [`LONE`] times the range of the neighbours;
     /// nothing if there are none. The edges of the map are left out.
-    pub fn of(relief: &Relief) -> Option<Self> {
+    pub fn find(relief: &Relief) -> Option<Self> {
         let Relief { heights, rms, .. } = relief;
         let (nx, ny) = heights.dim();
         // from each neighbour a spike differs by more than half of its distance from their mean

@@ -105,7 +105,7 @@ impl ContactTables {
     ///
     /// # Errors
     /// [`Error::Shape`] if a field is not on the grid.
-    pub fn of(
+    pub fn measure(
         gap: ArrayView2<'_, f64>,
         contact_pressure: ArrayView2<'_, f64>,
         grid: Grid,
@@ -126,8 +126,8 @@ impl ContactTables {
         };
         let autocorrelation = if meets { autocorrelation(contact_pressure, grid)? } else { Vec::new() };
         Ok(Self {
-            gap: Density::of(values(gap), facing, GAP_WINDOW),
-            pressure: Density::of(values(contact_pressure), facing, PRESSURE_WINDOW),
+            gap: Density::measure(values(gap), facing, GAP_WINDOW),
+            pressure: Density::measure(values(contact_pressure), facing, PRESSURE_WINDOW),
             autocorrelation,
             spots: spots(&contact, contact_pressure, grid, (meets, !meets && !is_original)),
             mean_contact_pressure: contact_pressure.sum() / facing.max(1) as f64,
@@ -136,7 +136,7 @@ impl ContactTables {
 
     /// The figures of the tables.
     pub fn figures(&self) -> ContactFigures {
-        ContactFigures::of(self)
+        ContactFigures::record(self)
     }
 
     /// The distance at which the autocorrelation of the pressure has fallen to a half.
@@ -171,10 +171,10 @@ impl ContactFigures {
 
 impl Density {
     /// The density of values, each with whether its node is at the edge, among as many nodes.
-    fn of(values: Vec<(f64, bool)>, nodes: usize, window: f64) -> Self {
+    fn measure(values: Vec<(f64, bool)>, nodes: usize, window: f64) -> Self {
         let (least, greatest) =
             values.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (value, _)| (low.min(*value), high.max(*value)));
-        let exponent = Exponent::of(&values, window);
+        let exponent = Exponent::find(&values, window);
         if values.is_empty() {
             return Self { edges: Vec::new(), density: Vec::new(), exponent };
         }
@@ -218,7 +218,7 @@ impl Density {
 
 impl Exponent {
     /// The exponent of values above those at the edge, in a window of a ratio.
-    fn of(values: &[(f64, bool)], window: f64) -> Option<Self> {
+    fn find(values: &[(f64, bool)], window: f64) -> Option<Self> {
         let mut at_edge: Vec<_> = values.iter().filter(|(_, edge)| *edge).map(|(value, _)| *value).collect();
         let mut all: Vec<_> = values.iter().map(|(value, _)| *value).collect();
         let from = quantile(&mut at_edge, AT_EDGE)?;

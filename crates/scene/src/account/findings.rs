@@ -5,7 +5,7 @@ use asperity_flow::{Conductance, Gap, Leakage};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::account::{Along, Found, Narrowest, Transmissivity, check_finite};
+use crate::account::{Along, Answer, Narrowest, Transmissivity, check_finite};
 use crate::key::{After, Boundary, Conductors, ERROR, Elastic, LEAKAGE, LeakAsked, record};
 
 record! {
@@ -57,12 +57,12 @@ impl Findings {
     }
 }
 
-impl<T: Real> Found<T> {
+impl<T: Real> Answer<T> {
     /// The findings that are asked for after the solve, besides the contact stiffness; none if it was stopped, or has
     /// run away.
     ///
     /// # Errors
-    /// As [`Conductance::of`], [`Conductance::of_spots`] and [`LeakAsked::find`].
+    /// As [`Conductance::from_stiffness`], [`Conductance::of_spots`] and [`LeakAsked::find`].
     pub(crate) fn after(&self, after: &After, elastic: &Elastic) -> Result<Findings> {
         if check_finite(&self.solution).is_err() {
             return Ok(Findings::default());
@@ -90,8 +90,8 @@ impl<T: Real> Found<T> {
             findings.transmissivity = Some(leaked.transmissivity);
         } else {
             let percolation = if free { gap.free() } else { gap }.percolation();
-            findings.percolates = Some(Along::of(|axis| percolation.along(axis).is_some()));
-            findings.constriction = Some(Along::of(|axis| percolation.along(axis).map(Narrowest::of)));
+            findings.percolates = Some(Along::from_axes(|axis| percolation.along(axis).is_some()));
+            findings.constriction = Some(Along::from_axes(|axis| percolation.along(axis).map(Narrowest::record)));
         }
         Ok(findings)
     }
@@ -108,10 +108,10 @@ impl<T: Real> Found<T> {
             let found = Conductance::of_spots(contact.view(), grid, periodic, resistivities)?;
             (found, (found.per_area == 0.0).then_some(0.0))
         } else {
-            let found = Conductance::of(stiffness, solution.report.modulus, resistivities)?;
+            let found = Conductance::from_stiffness(stiffness, solution.report.modulus, resistivities)?;
             (found, stiffness.error())
         };
         let share = self.sight.original.map_or(1.0, |original| original.share());
-        Ok(Some(Conducted::of(found, share, relative_error, conductors)))
+        Ok(Some(Conducted::record(found, share, relative_error, conductors)))
     }
 }

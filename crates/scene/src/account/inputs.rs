@@ -60,7 +60,7 @@ record! {
 impl Scene {
     /// The inputs of a report as far as the scene has them, on a surface of a shape and side lengths.
     pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
-        Inputs::of(self, shape, lengths, threads)
+        Inputs::record(self, shape, lengths, threads)
     }
 }
 

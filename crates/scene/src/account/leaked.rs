@@ -14,13 +14,13 @@ record! {
         /// What is beyond the map.
         boundary: Boundary = asked.boundary,
         /// Whether open nodes connect the sides.
-        percolates: Along<bool> = Along::of(|axis| leak.percolation.along(axis).is_some()),
+        percolates: Along<bool> = Along::from_axes(|axis| leak.percolation.along(axis).is_some()),
         /// The widest passages.
-        constriction: Along<Option<Narrowest>> = Along::of(|axis| leak.percolation.along(axis).map(Narrowest::of)),
+        constriction: Along<Option<Narrowest>> = Along::from_axes(|axis| leak.percolation.along(axis).map(Narrowest::record)),
         /// Qη/Δp, a length³.
-        transmissivity: Along<Transmissivity> = Along::of(|axis| Transmissivity::of(leak.along(axis), grid_errors[axis as usize])),
+        transmissivity: Along<Transmissivity> = Along::from_axes(|axis| Transmissivity::record(leak.along(axis), grid_errors[axis as usize])),
         /// Q/Δp, if the viscosity is known.
-        flow_per_pressure: Along<Option<Enclosed>> = Along::of(|axis| Some(Enclosed::of(leak.along(axis).transmissivity, asked.viscosity?))),
+        flow_per_pressure: Along<Option<Enclosed>> = Along::from_axes(|axis| Some(Enclosed::record(leak.along(axis).transmissivity, asked.viscosity?))),
         /// The viscosity η, a pressure times a time.
         viscosity: Option<f64> = asked.viscosity,
         /// The gap of absent nodes, if they are open.
@@ -42,7 +42,7 @@ pub struct Along<T> {
 }
 
 impl<T> Along<T> {
-    pub(crate) fn of(make: impl Fn(Axis) -> T) -> Self {
+    pub(crate) fn from_axes(make: impl Fn(Axis) -> T) -> Self {
         Self { x: make(Axis::X), y: make(Axis::Y) }
     }
 
@@ -148,7 +148,7 @@ impl LeakAsked {
         let leak = settings.through_while(&gap, goes_on)?;
         let grid_errors =
             if grid_error && goes_on() { settings.grid_error_while(&gap, &leak, goes_on)? } else { [None; 2] };
-        let leaked = Leaked::of(self, &leak, grid_errors);
+        let leaked = Leaked::record(self, &leak, grid_errors);
         Ok((leak, leaked))
     }
 }

@@ -4,10 +4,10 @@ use asperity::contact::ContactStatistics;
 use asperity::{Real, Result, Solution};
 use ndarray::ArrayView2;
 
-use crate::account::{Account, Found, Inputs, Sight, untold};
+use crate::account::{Account, Answer, Inputs, Sight, untold};
 use crate::key::{Adhesion, Notice};
 
-impl<T: Real> Found<T> {
+impl<T: Real> Answer<T> {
     /// The account of the solve by a command; [`Sight::look`] adds the keys that follow from the fields.
     ///
     /// # Errors
@@ -34,7 +34,7 @@ impl<T: Real> Found<T> {
             },
             ..inputs.clone()
         };
-        let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);
+        let mut account = Account::record(command, self, report, share, inputs, strongest, warnings);
         self.sight.tell(&mut account);
         Ok(account)
     }

@@ -48,7 +48,7 @@ impl Number {
 impl Measure {
     /// The measure of a column of a table, or of a number of a report, under loads of this kind. The perimeter of contact
     /// on a line is the number of its ends.
-    pub fn of(name: &str, control: &str, on_line: bool) -> Self {
+    pub fn find(name: &str, control: &str, on_line: bool) -> Self {
         match (name, control) {
             ("perimeter", _) if on_line => Self::Plain,
             ("control_value", "mean-pressure") => Self::Of(PRESSURE),
@@ -97,7 +97,8 @@ impl Units {
     /// The names of the columns of a table, with their units where those are all known.
     pub fn columns(&self, names: &[&str], control: &str, on_line: bool) -> Vec<String> {
         let known = self.of_table() != "none";
-        let unit = |name: &str| if known { self.unit(Measure::of(name, control, on_line).dimension()?) } else { None };
+        let unit =
+            |name: &str| if known { self.unit(Measure::find(name, control, on_line).dimension()?) } else { None };
         let name = |name: &&str| match unit(name) {
             // letters and digits of ASCII, as spreadsheets may take a file without a mark for another encoding
             Some(unit) => format!("{name} [{}]", ascii(&unit)),
@@ -114,5 +115,5 @@ fn ascii(unit: &str) -> String {
 
 /// The dimension of the numbers of a key; none for shares, numbers and words.
 pub fn dimension_of_key(key: &str) -> Option<Dimension> {
-    Key::named(key).map_or_else(|| Measure::of(key, "", false).dimension(), |key| key.kind.dimension())
+    Key::named(key).map_or_else(|| Measure::find(key, "", false).dimension(), |key| key.kind.dimension())
 }

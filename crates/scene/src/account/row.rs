@@ -6,7 +6,7 @@ use asperity::{Real, Status};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::account::{Account, Found, LIMIT, OUTCOME, PLASTIC, STATE, STIFFNESS, Step, interface};
+use crate::account::{Account, Answer, LIMIT, OUTCOME, PLASTIC, STATE, STIFFNESS, Step, interface};
 use crate::key::{Adhesion, After, LENGTH, record};
 
 record! {
@@ -14,7 +14,7 @@ record! {
     /// figures that tables alone have.
     #[derive(Clone, Debug, Serialize)]
     Row of <T: Real>(
-        found: &Found<T>,
+        found: &Answer<T>,
         account: &Account,
         sizes: &[usize],
         touch: Option<f64>,

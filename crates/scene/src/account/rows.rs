@@ -27,7 +27,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Rows {
     let adheres = solves.iter().any(|solve| solve.inputs.adhesion.adheres());
     let told: Vec<_> = solves.iter().map(|solve| json!(solve)).collect();
     let number = |name: &str| {
-        let measure = Measure::of(name, "", false);
+        let measure = Measure::find(name, "", false);
         let text = |value: &Value| match (measure, value.as_f64()) {
             // as many digits as there is room for
             (Measure::Plain, Some(number)) if value.is_f64() => Some(plain(number)),

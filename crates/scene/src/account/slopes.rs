@@ -35,6 +35,6 @@ impl Slopes {
         let spectrum = (periodic && room()).then(|| surface.spectrum());
         let of_waves = spectrum.as_ref().map(Spectrum::rms_slope).and_then(known);
         let differences = known(rms_slope(surface.heights().view(), grid.spacing(), periodic));
-        Self::of(of_waves, differences, spectrum.as_ref().map(Spectrum::nodes_per_wave))
+        Self::record(of_waves, differences, spectrum.as_ref().map(Spectrum::nodes_per_wave))
     }
 }

@@ -48,7 +48,7 @@ impl Theories {
     ///
     /// # Errors
     /// What the scene has that they do not know of, or that the surface is flat, for [`worded`](crate::worded).
-    pub fn of(surface: &Surface, scene: &Scene) -> Result<Self, String> {
+    pub fn new(surface: &Surface, scene: &Scene) -> Result<Self, String> {
         Self::check(surface, scene)?;
         let SurfaceStatistics { rms_height, rms_slope, rms_curvature, .. } = surface.statistics();
         let Psd { wave_numbers, densities, waves, cell, .. } = surface.spectrum().radial_psd();

@@ -4,7 +4,7 @@ use asperity::Tabulated;
 use asperity_maps::Topography;
 use ndarray::Array2;
 
-use crate::key::{Given, LENGTH, Skin, Units, in_unit, worded};
+use crate::key::{Entries, LENGTH, Skin, Units, in_unit, worded};
 
 /// The relative difference that given side lengths may have from the side lengths of a map: headers round.
 const ROUNDING: f64 = 1e-2;
@@ -38,7 +38,7 @@ pub struct Maps {
 
 impl Maps {
     /// The heights alone.
-    pub fn of(heights: Map) -> Self {
+    pub fn new(heights: Map) -> Self {
         Self { heights, against: None, facing: None, hardness: None, works: None, table: None }
     }
 }
@@ -80,7 +80,7 @@ impl Map {
 /// # Errors
 /// The name and the remedy, in the words of a skin: for side lengths that contradict the map, or are unknown where
 /// numbers have units, and for a unit that is none of length.
-pub fn sided(map: Map, given: &Given, si: bool, skin: Skin) -> Result<Map, String> {
+pub fn sided(map: Map, given: &Entries, si: bool, skin: Skin) -> Result<Map, String> {
     let mut map = map.in_metres_if(si, skin)?;
     let (name, known, lengths) = (map.label(), map.topography.lengths, given.lengths(map.shape));
     let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;

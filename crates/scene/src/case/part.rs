@@ -25,7 +25,7 @@ impl Part {
     }
 
     /// The original of a mirrored map, with its nodes, unless the whole is asked for.
-    pub(super) fn of(original: Option<(usize, usize)>, grid: Grid, is_whole: bool) -> Outcome<Self> {
+    pub(super) fn new(original: Option<(usize, usize)>, grid: Grid, is_whole: bool) -> Outcome<Self> {
         let is_mirrored = original.is_some();
         if is_mirrored && !is_whole && grid.is_shared() {
             let text = "the original of a mirrored map has no form for several processes: give --whole for results on \

@@ -66,7 +66,7 @@ impl Case {
             (first, _) => first,
         })?;
         let is_whole = boundary == Boundary::Free || given.whole();
-        let part = processes.agree(Part::of(original, *surface.grid(), is_whole))?;
+        let part = processes.agree(Part::new(original, *surface.grid(), is_whole))?;
         self.worded(fits("{work_of_adhesion_map}", works.as_ref(), shape))?;
         self.worded(fits("{hardness_map}", hardness.as_ref(), shape))?;
         let formula = self.formula(table.as_ref(), works.as_ref()).map_err(|error| match &works {

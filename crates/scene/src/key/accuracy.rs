@@ -5,7 +5,7 @@ use asperity::accuracy::{Accuracy, Quantity};
 use asperity::stability::ContactStiffness;
 use asperity_maps::io::available_memory;
 
-use crate::key::{Given, Kind, PRESSURE, Range, Word, keys};
+use crate::key::{Entries, Kind, PRESSURE, Range, Word, keys};
 
 /// The bytes of a GiB.
 pub const GIB: f64 = 1_073_741_824.0;
@@ -95,7 +95,7 @@ pub struct Goal {
     pub memory: Option<f64>,
 }
 
-impl Given {
+impl Entries {
     /// The accuracy of a solution, if one is asked for.
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl Given {
     /// The accuracy of a cycle, if one is asked for.
     ///
     /// # Errors
-    /// As [`Given::goal`].
+    /// As [`Entries::goal`].
     pub fn cycle_goal(&self) -> Result<Option<Goal>, String> {
         let CycleAccuracyKeys { accuracy, accuracy_of, memory } = self.keys();
         goal_of(&Quantity::OF_LOOPS, accuracy, accuracy_of, memory)

@@ -89,7 +89,7 @@ record! {
 
 impl Default for Adhesion {
     fn default() -> Self {
-        Self::of("none")
+        Self::record("none")
     }
 }
 

@@ -1,7 +1,7 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
 use crate::key::{
-    Adhesion, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, Elastic, Given, Kind, RESISTIVITY, Range,
+    Adhesion, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, Elastic, Entries, Kind, RESISTIVITY, Range,
     THERMAL_CONDUCTANCE, Wall, keys,
 };
 
@@ -89,7 +89,7 @@ pub enum Conductors {
     Thermal((f64, f64)),
 }
 
-impl Given {
+impl Entries {
     /// Whether the stability is asked for, by itself or with what implies it.
     pub fn is_tested(&self) -> bool {
         let FindingsKeys { stability, leave, .. } = self.keys();

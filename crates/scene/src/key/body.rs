@@ -8,7 +8,7 @@ use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use serde::Deserialize;
 
-use crate::key::{Given, Kind, LENGTH, Range, choice, keys};
+use crate::key::{Entries, Kind, LENGTH, Range, choice, keys};
 
 keys! {
     /// The grid of a surface that is made.
@@ -24,7 +24,7 @@ keys! {
     }
 }
 
-impl Given {
+impl Entries {
     /// The nodes of a surface that is made.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Boundary, ENERGY, Form, Given, Keys, Kind, LENGTH, PRESSURE, Range, Readable, Symbol, Units, Word, keys, needed,
+    Boundary, ENERGY, Entries, Form, Keys, Kind, LENGTH, PRESSURE, Range, Readable, Symbol, Units, Word, keys, needed,
     record,
 };
 
@@ -109,14 +109,14 @@ record! {
 impl Readable for Option<Base> {
     const FORM: Form = Form::Word;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         given.named(key)
     }
 }
 
 impl Default for Elastic {
     fn default() -> Self {
-        Self::of()
+        Self::record()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use asperity_flow::Leakage;
 
-use crate::key::{Boundary, Given, Kind, LENGTH, Range, VISCOSITY, keys};
+use crate::key::{Boundary, Entries, Kind, LENGTH, Range, VISCOSITY, keys};
 
 keys! {
     /// The leakage through a gap.
@@ -25,7 +25,7 @@ keys! {
     }
 }
 
-impl Given {
+impl Entries {
     /// What is asked of a gap with a boundary, unless that is given.
     pub fn leak(&self, boundary: Boundary) -> LeakAsked {
         let settings = Leakage::default();

@@ -2,7 +2,7 @@
 
 use asperity::Control;
 
-use crate::key::{Boundary, FORCE, FORCE_PER_LENGTH, Given, Kind, LENGTH, PRESSURE, Range, keys};
+use crate::key::{Boundary, Entries, FORCE, FORCE_PER_LENGTH, Kind, LENGTH, PRESSURE, Range, keys};
 
 keys! {
     /// The load of a solve, one of these.
@@ -139,7 +139,7 @@ static KINDS: [LoadKind; 7] = [
     },
 ];
 
-impl Given {
+impl Entries {
     /// The load of a solve.
     ///
     /// # Errors
@@ -160,7 +160,7 @@ impl Given {
     /// The loads of a table, of one kind.
     ///
     /// # Errors
-    /// As of [`Given::load`].
+    /// As of [`Entries::load`].
     pub fn loads(&self) -> Result<Vec<Load>, String> {
         let (keys, fractions): (LoadsKeys, FractionsKeys) = (self.keys(), self.keys());
         let numbers = |kind: &LoadKind| (kind.listed)(keys.clone(), fractions.clone());

@@ -26,7 +26,7 @@ macro_rules! keys {
                 },
             },)+)*];
 
-            fn of(given: &$crate::Given) -> Self {
+            fn read(given: &$crate::Entries) -> Self {
                 Self { $($($name: given.field($crate::Key::name_of(stringify!($name))),)+)* }
             }
         }
@@ -109,7 +109,7 @@ macro_rules! record {
             },)*];
 
             /// The record of what is given.
-            pub fn of$(<$scalar $(: $bound)?>)?($($given: $kind),*) -> Self {
+            pub fn record$(<$scalar $(: $bound)?>)?($($given: $kind),*) -> Self {
                 Self { $($key: $value,)* }
             }
         }

@@ -7,7 +7,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, ValueHint};
 
 use crate::key::list::list;
-use crate::key::{Given, Key, Quantity, Skin, Values, Word, worded};
+use crate::key::{Entries, Key, Quantity, Skin, Values, Word, worded};
 
 impl Key {
     /// The option of the key.
@@ -68,8 +68,8 @@ impl Key {
 }
 
 /// What the options of some keys are given on a command line.
-pub fn chosen(keys: impl Iterator<Item = &'static Key>, matches: &ArgMatches) -> Given {
-    let mut given = Given::default();
+pub fn chosen(keys: impl Iterator<Item = &'static Key>, matches: &ArgMatches) -> Entries {
+    let mut given = Entries::default();
     for key in keys.filter(|key| matches.value_source(key.name) == Some(ValueSource::CommandLine)) {
         let typed = match key.kind.values {
             Values::Switch if !matches.get_flag(key.name) => continue,

@@ -12,7 +12,7 @@ use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use serde::{Deserialize, Deserializer, de};
 
-use crate::key::{Given, LENGTH, Notice, Units, power_of_length, times_ten_to};
+use crate::key::{Entries, LENGTH, Notice, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
 pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 
@@ -68,7 +68,7 @@ pub struct Preparation {
     pub resample: Option<Vec<usize>>,
 }
 
-impl Given {
+impl Entries {
     /// The steps of a preparation of a map of a shape, with numbers in SI units or not; the map may have a unit.
     ///
     /// # Errors

@@ -6,11 +6,11 @@ use crate::key::{Key, Quantity, Skin, worded};
 
 /// The quantities of a command or a call, which all have units, or none has.
 #[derive(Clone, Debug, Default)]
-pub struct Quantities(Vec<Measured>);
+pub struct Quantities(Vec<QuantityEntry>);
 
 /// A quantity as it was typed.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct QuantityEntry {
     key: String,
     texts: Vec<String>,
     has_unit: bool,
@@ -19,17 +19,17 @@ pub struct Measured {
     is_default: bool,
 }
 
-impl Measured {
+impl QuantityEntry {
     /// The numbers of a key, of a list all that stand in it.
-    pub fn of(key: &str, texts: Vec<String>, numbers: &[Quantity], is_default: bool) -> Self {
+    pub fn new(key: &str, texts: Vec<String>, numbers: &[Quantity], is_default: bool) -> Self {
         let has_unit = numbers.iter().any(|number| number.has_unit);
         let is_bare = numbers.iter().any(|number| number.is_bare());
         Self { key: key.to_owned(), texts, has_unit, is_bare, is_default }
     }
 }
 
-impl FromIterator<Measured> for Quantities {
-    fn from_iter<I: IntoIterator<Item = Measured>>(all: I) -> Self {
+impl FromIterator<QuantityEntry> for Quantities {
+    fn from_iter<I: IntoIterator<Item = QuantityEntry>>(all: I) -> Self {
         Self(all.into_iter().collect())
     }
 }
@@ -75,7 +75,7 @@ impl Quantities {
 
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
     pub fn texts(&self) -> Option<Value> {
-        let entry = |given: &Measured| {
+        let entry = |given: &QuantityEntry| {
             let texts = if let [one] = &given.texts[..] { json!(one) } else { json!(given.texts) };
             (given.key.clone(), texts)
         };

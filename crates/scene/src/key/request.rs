@@ -4,7 +4,7 @@ use asperity::Control;
 use asperity::path::PathSettings;
 use asperity::solver::Method;
 
-use crate::key::{Adhesion, After, Branches, FindingsKeys, Given, Goal, Kind, Load, Range, SolverKeys, keys};
+use crate::key::{Adhesion, After, Branches, Entries, FindingsKeys, Goal, Kind, Load, Range, SolverKeys, keys};
 
 keys! {
     /// The grids of a solve.
@@ -38,11 +38,11 @@ keys! {
     }
 }
 
-impl Given {
+impl Entries {
     /// What is asked of a solve under a load where a reduced pressure of 1 is the `full` pressure.
     ///
     /// # Errors
-    /// As [`Given::after`] and [`Given::goal`].
+    /// As [`Entries::after`] and [`Entries::goal`].
     pub fn request(&self, load: Load, full: f64) -> Result<Request, String> {
         let NestedKeys { nested, no_nested } = self.keys();
         let (FindingsKeys { leave, .. }, SolverKeys { branch, .. }) = (self.keys(), self.keys());

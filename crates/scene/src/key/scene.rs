@@ -7,7 +7,7 @@ use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
 
 use crate::key::{
-    Adhesion, AdhesionKeys, Elastic, Form, Given, Kind, Range, Readable, SurfaceKeys, Word, choice, keys,
+    Adhesion, AdhesionKeys, Elastic, Entries, Form, Kind, Range, Readable, SurfaceKeys, Word, choice, keys,
 };
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
@@ -88,7 +88,7 @@ keys! {
 impl Readable for Option<Method> {
     const FORM: Form = Form::Word;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         given.named(key)
     }
 }
@@ -119,7 +119,7 @@ impl Files {
     }
 }
 
-impl Given {
+impl Entries {
     /// The scene, without what files hold.
     pub fn scene(&self) -> Scene {
         let SolverKeys { method, tolerance, max_iterations, precision, branch, .. } = self.keys();

@@ -48,7 +48,7 @@ struct Waves {
 }
 
 impl Waves {
-    fn of(grid: &Grid) -> Self {
+    fn new(grid: &Grid) -> Self {
         let (nx, ny) = grid.shape();
         Self { lengths: grid.lengths(), highest: ((nx / 2) as i64, (ny / 2) as i64) }
     }
@@ -89,7 +89,7 @@ impl Symbol {
     /// # Errors
     /// [`Error::Contract`] for a stiffness that is not positive and finite, or not even; errors of the function.
     pub(crate) fn on(&self, grid: &Grid) -> Result<impl Body + use<>> {
-        let waves = Waves::of(grid);
+        let waves = Waves::new(grid);
         let mut known = Vec::with_capacity(waves.count());
         for first in (1..=waves.count()).step_by(MOST) {
             let last = waves.count().min(first + MOST - 1);
@@ -117,7 +117,7 @@ impl Symbol {
 
     /// The fingerprint of the function at some of the waves of a grid, by which a table tells it from others.
     pub(crate) fn fingerprint(&self, grid: &Grid) -> Hash {
-        let waves = Waves::of(grid);
+        let waves = Waves::new(grid);
         let some = (1..=waves.count()).step_by(waves.count() / SAMPLES + 1);
         let (qx, qy): (Vec<f64>, Vec<f64>) = some.map(|number| waves.wave(number)).unzip();
         // a solve says what is wrong with it
@@ -182,7 +182,7 @@ mod tests {
     fn waves_have_the_numbers_that_find_them() {
         for shape in [(8, 6), (7, 5), (9, 1), (1, 4), (2, 2), (1, 1)] {
             let grid = Grid::new(shape, (1.3, 0.7)).unwrap();
-            let waves = Waves::of(&grid);
+            let waves = Waves::new(&grid);
             for number in 1..=waves.count() {
                 let (qx, qy) = waves.wave(number);
                 assert_eq!((waves.number(qx, qy), waves.number(-qx, -qy)), (number, number), "{shape:?}");

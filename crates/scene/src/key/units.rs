@@ -2,7 +2,7 @@
 
 use asperity_maps::warning::Warning;
 
-use crate::key::{Dimension, FORCE, Given, Kind, LENGTH, Notice, PRESSURE, Range, keys, unit};
+use crate::key::{Dimension, Entries, FORCE, Kind, LENGTH, Notice, PRESSURE, Range, keys, unit};
 use crate::numbers::{self, plain, si};
 
 keys! {
@@ -24,7 +24,7 @@ pub(crate) fn is_unit(text: &str) -> Result<(), String> {
     unit(text).map(drop)
 }
 
-impl Given {
+impl Entries {
     /// The units of numbers next to a file with a unit of length, or none; `si` says that they were given with units.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::account::row::Kind;
-use crate::account::{Account, Found, Row, Search, Step, stiffness};
+use crate::account::{Account, Answer, Row, Search, Step, stiffness};
 use crate::clock::Instant;
 use crate::key::{Adhesion, After, Boundary, Scalar, Scene};
 use crate::outcome::Outcome;
@@ -187,7 +187,7 @@ impl<T: Scalar> Course<T> {
     pub fn append(
         &self,
         table: &mut Table,
-        (found, row): (&Found<T>, &Row),
+        (found, row): (&Answer<T>, &Row),
         nodes: &Grid,
         processes: &Processes,
     ) -> Outcome<()> {
@@ -277,7 +277,7 @@ impl<T: Scalar> Course<T> {
         &mut self,
         one: &mut OneGrid<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Result<Option<Found<T>>> {
+    ) -> Result<Option<Answer<T>>> {
         if self.is_over {
             return Ok(None);
         }
@@ -298,7 +298,7 @@ impl<T: Scalar> Course<T> {
             (Strategy::Search(search), Way::Search(fractions)) => {
                 let Some(&fraction) = fractions.get(*states) else { return Ok(None) };
                 let found = search.at_observed(solver, problem, fraction, observe)?;
-                let searched = Search::of(fraction, &found);
+                let searched = Search::record(fraction, &found);
                 (found.solution, Some(searched), None)
             }
             (Strategy::Search(_), _) => return Ok(None),
@@ -311,12 +311,12 @@ impl<T: Scalar> Course<T> {
                     pace.add(path.share(), found.event.is_some(), clock.elapsed().as_secs_f64());
                 }
                 *events += usize::from(found.event.is_some());
-                let step = Step::of(&found, direction(way.loads(), found.leg, boundary));
+                let step = Step::record(&found, direction(way.loads(), found.leg, boundary));
                 (found.solution, None, Some(step))
             }
         };
         *states += 1;
-        let found = Found { search, step, ..one.examine(solution, clock)? };
+        let found = Answer { search, step, ..one.examine(solution, clock)? };
         one.followed(found, &self.after).map(Some)
     }
 
@@ -325,7 +325,7 @@ impl<T: Scalar> Course<T> {
     ///
     /// # Errors
     /// As [`Sight::look`](crate::Sight::look).
-    pub fn row(&mut self, found: &mut Found<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
+    pub fn row(&mut self, found: &mut Answer<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
         let statistics = found.sight.look_at(&mut account, &found.solution)?;
         if self.touch.is_some() {
             // its own, or the branch of the first state, on which the others follow
@@ -345,7 +345,7 @@ impl<T: Scalar> Course<T> {
             Some(touch) => Some(touch + found.sight.facing_displacement(&account.inputs.elastic, &found.solution)?),
             None => None,
         };
-        Ok(Row::of(found, &account, &statistics.cluster_sizes, touch, seed))
+        Ok(Row::record(found, &account, &statistics.cluster_sizes, touch, seed))
     }
 }
 

@@ -84,7 +84,7 @@ pub(super) struct Chosen {
 
 impl CycleLimits {
     /// The limits by a cycle on some grids, the finest last, to an accuracy, if one was asked for.
-    fn of(levels: &[Level], accuracy: Option<Refinement>) -> Option<Self> {
+    fn from_levels(levels: &[Level], accuracy: Option<Refinement>) -> Option<Self> {
         let [.., (_, coarse), (shape, fine)] = levels else { return None };
         let told = LoopLimit::of(*shape, fine, coarse);
         let level = |&(shape, PathEnd { work, work_error, greatest_tension, .. }): &Level| CycleLevel {
@@ -95,7 +95,7 @@ impl CycleLimits {
         };
         let reached = |of| told.get(of).relative_error();
         Some(Self {
-            limit: CycleLimit::of(told),
+            limit: CycleLimit::record(told),
             levels: levels.iter().map(level).collect(),
             accuracy: accuracy.map(|asked| Refinement { reached: reached(asked.of) <= asked.wanted, ..asked }),
             told,
@@ -251,6 +251,6 @@ impl<T: Scalar> Rows<T> {
             }
         };
         levels.extend(self.course.end().map(|end| (self.one.problem.grid().shape(), end)));
-        Ok(CycleLimits::of(&levels, accuracy))
+        Ok(CycleLimits::from_levels(&levels, accuracy))
     }
 }

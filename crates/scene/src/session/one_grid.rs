@@ -7,7 +7,7 @@ use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
 use asperity::{AdhesionLaw, ContactSearch, Control, Problem, Result, Solution, Solver, Start, Status};
 use ndarray::Array2;
 
-use crate::account::{Found, Left, OtherBranch, Search, Steadiness, check_finite};
+use crate::account::{Answer, Left, OtherBranch, Search, Steadiness, check_finite};
 use crate::clock::Instant;
 use crate::key::{After, Constraint, Request, Scalar};
 use crate::session::{Facts, Observe, Session};
@@ -49,7 +49,7 @@ impl<T: Scalar> OneGrid<T> {
         start: Option<Array2<T>>,
         clock: Instant,
         observe: Observe<'_>,
-    ) -> Result<Found<T>> {
+    ) -> Result<Answer<T>> {
         let Self { solver, problem, .. } = self;
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
         let mut observe = |state: &Iteration| observe(&grid, state, tolerance);
@@ -57,7 +57,7 @@ impl<T: Scalar> OneGrid<T> {
             Some(fraction) => {
                 let mut search = start.map_or_else(ContactSearch::default, ContactSearch::starting_from);
                 let found = search.at_observed(solver, problem, fraction, &mut observe)?;
-                let search = Search::of(fraction, &found);
+                let search = Search::record(fraction, &found);
                 (found.solution, Some(search))
             }
             None => {
@@ -75,14 +75,14 @@ impl<T: Scalar> OneGrid<T> {
                 verdict = Some(found);
                 break;
             };
-            departures.push(Left::of(found.eigenvalue, &left));
+            departures.push(Left::record(found.eigenvalue, &left));
             solution = left.solution;
         }
         let stiffness = if asked.after.stiffness { self.stiffness(&solution)? } else { None };
         let found = self.examine(solution, clock)?;
-        let stability = verdict.as_ref().map(Steadiness::of);
+        let stability = verdict.as_ref().map(Steadiness::record);
         let (mode, departures) = (verdict.map(|verdict| verdict.mode), asked.leave.then_some(departures));
-        Ok(Found { search, stability, mode, departures, stiffness, ..found })
+        Ok(Answer { search, stability, mode, departures, stiffness, ..found })
     }
 
     /// The solution on the other branch of equilibria, if the solution has a branch.
@@ -99,24 +99,24 @@ impl<T: Scalar> OneGrid<T> {
         let found = found?;
         let part = original.map(|original| original.of_solution(&found)).transpose()?;
         let report = part.as_ref().map_or(&found.report, |part| &part.report);
-        Ok(Some(OtherBranch::of(report, found.distance(solution), found.agrees_with(solution))))
+        Ok(Some(OtherBranch::record(report, found.distance(solution), found.agrees_with(solution))))
     }
 
     /// The solution and its sight, by a solve that began at a time.
     ///
     /// # Errors
     /// As [`Facts::examine`].
-    pub(super) fn examine(&self, solution: Solution<T>, clock: Instant) -> Result<Found<T>> {
+    pub(super) fn examine(&self, solution: Solution<T>, clock: Instant) -> Result<Answer<T>> {
         self.facts.examine(solution, &self.law, clock)
     }
 
     /// A state on a course with the findings that are asked for after it.
-    pub(super) fn followed(&mut self, found: Found<T>, after: &After) -> Result<Found<T>> {
+    pub(super) fn followed(&mut self, found: Answer<T>, after: &After) -> Result<Answer<T>> {
         let wanted = after.stiffness && check_finite(&found.solution).is_ok();
         let stiffness = if wanted { self.stiffness(&found.solution)? } else { None };
-        let found = Found { stiffness, ..found };
+        let found = Answer { stiffness, ..found };
         let after = found.after(after, &self.facts.scene.elastic)?;
-        Ok(Found { after, ..found })
+        Ok(Answer { after, ..found })
     }
 
     /// The contact stiffness of a solution, unless its solve was stopped.
@@ -138,6 +138,6 @@ impl<T: Scalar> OneGrid<T> {
     pub fn stability(&mut self, control: Control, gap: &Array2<T>, error: f64) -> Result<(Steadiness, Array2<T>)> {
         let (control, wall) = (self.facts.on_whole(control), &self.solver.constraint);
         let found = StabilityTest::default().of_gap(&mut self.problem, wall, control, gap, error)?;
-        Ok((Steadiness::of(&found), found.mode))
+        Ok((Steadiness::record(&found), found.mode))
     }
 }

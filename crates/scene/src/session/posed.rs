@@ -9,7 +9,7 @@ use asperity_maps::io::available_memory;
 use asperity_maps::warning::Warning;
 use ndarray::Array2;
 
-use crate::account::{Found, PulledOff};
+use crate::account::{Answer, PulledOff};
 use crate::clock::Instant;
 use crate::key::{Goal, Load, Scalar};
 use crate::outcome::Outcome;
@@ -131,7 +131,7 @@ impl<T: Scalar> Session<T> {
         goal: Option<Goal>,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
-    ) -> Outcome<(Found<T>, PulledOff, Facts)> {
+    ) -> Outcome<(Answer<T>, PulledOff, Facts)> {
         let (clock, of_grid) = (Instant::now(), self.law.hints().of_grid);
         let tolerance = self.tolerance(None)?;
         if goal.is_some() || start.is_none() && of_grid {
@@ -142,12 +142,12 @@ impl<T: Scalar> Session<T> {
             let (law, mut solver) = (Arc::clone(&self.law), self.facts.solver()?);
             let found = wanted.pull_off_observed(&mut solver, &self.surface, elastic, law, &asked, observe)?;
             let last = self.facts.examine(found.found.solution.clone(), &self.law, clock)?;
-            let pulled_off = PulledOff::of(asked, &found.found, &last.part()?.report, Ok(&found), goal);
+            let pulled_off = PulledOff::record(asked, &found.found, &last.part()?.report, Ok(&found), goal);
             if let Err(NoEstimate::FewNodes { nodes, needed, bytes }) = found.error {
                 let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
                 self.facts.warnings.add_of_input(vec![self.facts.units.describe(&few)])?;
             }
-            return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off, self.facts));
+            return Ok((Answer { refined: goal.map(|_| found.surface), ..last }, pulled_off, self.facts));
         }
         let mut one = self.on_one_grid()?;
         let OneGrid { solver, problem, .. } = &mut one;
@@ -156,7 +156,7 @@ impl<T: Scalar> Session<T> {
         let found = asked.find_from(solver, problem, start, |state| observe(&grid, state, tolerance))?;
         let last = one.examine(found.solution.clone(), clock)?;
         let untold = if of_grid { "a coarser grid has no start: leave out the start" } else { PulledOff::OF_A_RANGE };
-        let pulled_off = PulledOff::of(asked, &found, &last.part()?.report, Err(untold), None);
+        let pulled_off = PulledOff::record(asked, &found, &last.part()?.report, Err(untold), None);
         Ok((last, pulled_off, one.facts))
     }
 }

@@ -10,7 +10,7 @@ use ndarray::Array2;
 use serde_json::Value;
 
 use crate::account::interface::touch;
-use crate::account::{Found, Row};
+use crate::account::{Answer, Row};
 use crate::key::{After, Request, Scalar};
 use crate::outcome::Outcome;
 use crate::session::course::Course;
@@ -47,7 +47,7 @@ pub struct TableFile {
 /// A state on a course that is not kept yet.
 pub struct Next<T: Scalar> {
     /// The findings.
-    pub found: Found<T>,
+    pub found: Answer<T>,
     /// The row.
     pub row: Row,
     course: Course<T>,
@@ -156,7 +156,7 @@ impl<T: Scalar> OneGrid<T> {
     /// What opens the table of a course in a file.
     fn opening(&self, course: &Course<T>, file: TableFile, identity: Identity, control: &str) -> Outcome<Opening> {
         let TableFile { out, format, fields, force, is_case, .. } = file;
-        let known = format.or_else(|| Format::of(&out));
+        let known = format.or_else(|| Format::from_path(&out));
         let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
         let (names, loads) = (course.columns(&self.facts.scene.adhesion), course.loads());
         let header = self.facts.units.columns(&names, control, self.nodes().is_line());
@@ -211,7 +211,7 @@ impl<T: Scalar> Rows<T> {
     fn find(
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<(Found<T>, Row)>> {
+    ) -> Outcome<Option<(Answer<T>, Row)>> {
         let Self { one, course, table, coarser } = self;
         if let Some(table) = table {
             one.facts.processes.first(|| table.claim())?;
@@ -229,7 +229,7 @@ impl<T: Scalar> Rows<T> {
     ///
     /// # Errors
     /// Files that cannot be written, or were changed meanwhile.
-    pub fn keep(&mut self, next: Next<T>) -> Outcome<(Found<T>, Row)> {
+    pub fn keep(&mut self, next: Next<T>) -> Outcome<(Answer<T>, Row)> {
         let Next { found, row, course } = next;
         if found.solution.report.status != Status::Stopped {
             if let Some(table) = &mut self.table {
@@ -248,9 +248,9 @@ impl<T: Scalar> Rows<T> {
     pub fn next(
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<(Found<T>, Row)>> {
+    ) -> Outcome<Option<(Answer<T>, Row)>> {
         let found = self.find(observe);
-        let goes_on = |found: &(Found<T>, Row)| found.0.solution.report.status != Status::Stopped;
+        let goes_on = |found: &(Answer<T>, Row)| found.0.solution.report.status != Status::Stopped;
         self.course.is_over |= !found.as_ref().is_ok_and(|found| found.as_ref().is_some_and(goes_on));
         let found = found?;
         if let (Some((found, row)), Some(table), false) = (&found, &mut self.table, self.course.is_over) {

@@ -10,7 +10,7 @@ use asperity::stability::ContactStiffness;
 use asperity::{AdhesionLaw, ContactConstraint, Grid, Nested, Result, Solution, Solver};
 use ndarray::Array2;
 
-use crate::account::{Found, Refinement, Waves};
+use crate::account::{Answer, Refinement, Waves};
 use crate::clock::Instant;
 use crate::key::{Goal, Request, Scalar};
 use crate::session::{Facts, Observe, Session};
@@ -25,8 +25,8 @@ impl Facts {
         solution: Solution<T>,
         law: &Arc<dyn AdhesionLaw<T>>,
         clock: Instant,
-    ) -> Result<Found<T>> {
-        Found::new(solution, Arc::clone(law), self.part.wanted(), clock)
+    ) -> Result<Answer<T>> {
+        Answer::new(solution, Arc::clone(law), self.part.wanted(), clock)
     }
 }
 
@@ -40,7 +40,7 @@ impl<T: Scalar> Session<T> {
         asked: &Request,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
-    ) -> Result<(Found<T>, Facts)> {
+    ) -> Result<(Answer<T>, Facts)> {
         let (mut found, facts) = match asked.goal {
             Some(goal) => (self.by_accuracy(goal, asked, observe)?, self.facts),
             None if self.is_nested(asked, start.is_some())? => {
@@ -64,7 +64,7 @@ impl<T: Scalar> Session<T> {
         Ok((found, facts))
     }
 
-    fn by_accuracy(&self, goal: Goal, asked: &Request, observe: Observe<'_>) -> Result<Found<T>> {
+    fn by_accuracy(&self, goal: Goal, asked: &Request, observe: Observe<'_>) -> Result<Answer<T>> {
         let (clock, mut solver) = (Instant::now(), self.facts.solver()?);
         let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
         let elastic = |grid| self.facts.scene.elastic.operator(grid);
@@ -73,11 +73,11 @@ impl<T: Scalar> Session<T> {
         let found = wanted.solve_observed(&mut solver, &self.surface, elastic, law, asked.control, observe)?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
-        let reached = Refinement::of(goal.accuracy, goal.of, reached, refinable, unaffordable);
+        let reached = Refinement::record(goal.accuracy, goal.of, reached, refinable, unaffordable);
         let mut found = self.facts.examine(solution, &self.law, clock)?;
         let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
         found.sight.estimate(&levels, nodes_per_wave);
-        Ok(Found { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
+        Ok(Answer { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
     }
 
     /// Whether a solve is on nested grids: where that is asked for, or pays.
@@ -89,7 +89,7 @@ impl<T: Scalar> Session<T> {
         Ok(asked.fraction.is_none() && asked.nested.unwrap_or_else(pays))
     }
 
-    fn on_nested_grids(self, asked: &Request, observe: Observe<'_>) -> Result<(Found<T>, Facts)> {
+    fn on_nested_grids(self, asked: &Request, observe: Observe<'_>) -> Result<(Answer<T>, Facts)> {
         let Self { facts, surface, law, .. } = self;
         let (clock, mut solver) = (Instant::now(), facts.solver()?);
         let (finest, tolerance) = (surface.grid().nodes(), solver.settings.tolerance_in::<T>());

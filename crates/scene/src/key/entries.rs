@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use crate::key::synonyms::similar;
-use crate::key::{Form, Key, Keys, LengthsKeys, Measured, Quantities, Quantity, Values};
+use crate::key::{Form, Key, Keys, LengthsKeys, Quantities, Quantity, QuantityEntry, Values};
 
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ impl Read {
     }
 
     /// A value that is no quantity.
-    pub(crate) fn of(value: impl Into<Value>) -> Self {
+    pub(crate) fn new(value: impl Into<Value>) -> Self {
         Self { value: value.into(), numbers: Vec::new() }
     }
 }
@@ -43,12 +43,12 @@ struct Entry {
 
 /// What was given for some keys.
 #[derive(Clone, Debug, Default)]
-pub struct Given(Vec<Entry>);
+pub struct Entries(Vec<Entry>);
 
 /// A value as keywords and forms have it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub enum Typed {
+pub enum Input {
     /// A truth value.
     Switch(bool),
     /// A whole number.
@@ -61,7 +61,7 @@ pub enum Typed {
     Several(Vec<Self>),
 }
 
-impl Typed {
+impl Input {
     /// The value as it was typed.
     fn text(&self) -> String {
         match self {
@@ -82,13 +82,13 @@ fn shortened(text: &str) -> String {
     if count > MOST { format!("{start}... ({count} characters)") } else { text.to_owned() }
 }
 
-impl Given {
+impl Entries {
     /// What a map of keys and values gives for some of the `known` keys; a value that is empty or false gives nothing.
     ///
     /// # Errors
     /// The key and the remedy, if it is not known, a value is none for it, or it needs another one, for
     /// [`worded`](crate::key::worded).
-    pub fn read(known: &[&'static Key], typed: impl IntoIterator<Item = (String, Typed)>) -> Result<Self, String> {
+    pub fn read(known: &[&'static Key], typed: impl IntoIterator<Item = (String, Input)>) -> Result<Self, String> {
         let mut given = Self::default();
         for (name, typed) in typed {
             let Some(key) = known.iter().find(|key| key.name == name) else {
@@ -98,12 +98,12 @@ impl Given {
                 return Err(format!("unknown key {name}: {remedy}"));
             };
             let all = match typed {
-                Typed::Several(all) => all,
+                Input::Several(all) => all,
                 // a switch that another one takes back says something when it is false
-                Typed::Switch(false) if key.kind.replaces.is_none() => continue,
+                Input::Switch(false) if key.kind.replaces.is_none() => continue,
                 one => vec![one],
             };
-            let mut texts: Vec<_> = all.iter().map(Typed::text).filter(|text| !text.is_empty()).collect();
+            let mut texts: Vec<_> = all.iter().map(Input::text).filter(|text| !text.is_empty()).collect();
             let (least, most) = key.kind.count;
             match key.kind.values {
                 Values::Quantities(..) | Values::Numbers(_) if !texts.is_empty() => texts = vec![texts.join(",")],
@@ -208,7 +208,7 @@ impl Given {
 
     /// What was given for a list of keys.
     pub fn keys<L: Keys>(&self) -> L {
-        L::of(self)
+        L::read(self)
     }
 
     /// What was given for a key, in the form of a field.
@@ -258,7 +258,8 @@ impl Given {
     pub fn quantities(&self) -> Quantities {
         let texts = |entry: &Entry| entry.typed.iter().map(|text| text.to_string_lossy().trim().to_owned()).collect();
         let quantities = self.0.iter().filter(|entry| entry.key.kind.dimension().is_some());
-        let of = |entry: &Entry| Measured::of(entry.key.name, texts(entry), &entry.read.numbers, entry.is_default);
+        let of =
+            |entry: &Entry| QuantityEntry::new(entry.key.name, texts(entry), &entry.read.numbers, entry.is_default);
         quantities.map(of).collect()
     }
 
@@ -281,7 +282,7 @@ pub trait Readable: Sized {
     const FORM: Form;
 
     /// What was given for a key.
-    fn read(given: &Given, key: &str) -> Self;
+    fn read(given: &Entries, key: &str) -> Self;
 }
 
 macro_rules! readable {
@@ -289,7 +290,7 @@ macro_rules! readable {
         $(impl Readable for $type {
             const FORM: Form = Form::$form;
 
-            fn read(given: &Given, key: &str) -> Self {
+            fn read(given: &Entries, key: &str) -> Self {
                 let $value = given.value(key);
                 $of
             }
@@ -312,7 +313,7 @@ readable! {
 impl Readable for PathBuf {
     const FORM: Form = Form::File;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         Option::read(given, key).unwrap_or_default()
     }
 }
@@ -320,7 +321,7 @@ impl Readable for PathBuf {
 impl Readable for Option<PathBuf> {
     const FORM: Form = Form::File;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         given.get(key)?.typed.first().map(PathBuf::from)
     }
 }
@@ -334,7 +335,7 @@ pub trait Choice: Default {
 impl<C: Choice> Readable for C {
     const FORM: Form = Form::Word;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         Option::read(given, key).unwrap_or_default()
     }
 }
@@ -342,7 +343,7 @@ impl<C: Choice> Readable for C {
 impl<C: Choice> Readable for Option<C> {
     const FORM: Form = Form::Word;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         C::named(given.word(key)?)
     }
 }
@@ -350,7 +351,7 @@ impl<C: Choice> Readable for Option<C> {
 impl<C: Choice> Readable for Vec<C> {
     const FORM: Form = Form::Words;
 
-    fn read(given: &Given, key: &str) -> Self {
+    fn read(given: &Entries, key: &str) -> Self {
         Vec::<String>::read(given, key).iter().filter_map(|word| C::named(word)).collect()
     }
 }

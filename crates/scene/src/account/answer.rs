@@ -18,7 +18,7 @@ use crate::key::{Notice, record};
 
 record! {
     /// The solution of a contact problem, with all that was asked for with it.
-    Found<T: Real> of (solution: Solution<T>, sight: Sight<T>, seconds: f64) {
+    Answer<T: Real> of (solution: Solution<T>, sight: Sight<T>, seconds: f64) {
         /// The solution, on all nodes that were solved.
         solution: Solution<T> = solution,
         /// The law and the grids of the solution, for a look at its fields.
@@ -90,7 +90,7 @@ pub(crate) type Seen = (ContactStatistics, PressureExtremes);
 /// The name of a wall of springs in reports.
 const SPRINGS: &str = "springs";
 
-impl<T: Real> Found<T> {
+impl<T: Real> Answer<T> {
     /// A solution by a solve that began at a time; numbers are of the `original`, if there is one. Where springs press that
     /// end at a rigid wall, what their last round leaves of a gap is no opening.
     pub(crate) fn new(
@@ -109,7 +109,7 @@ impl<T: Real> Found<T> {
         let by_energy = report.adhesive_contact_fraction.map(|_| ContactArea::of_solution(&solution)).transpose()?;
         let jkr_contact_fraction = by_energy.and_then(|area| area.jkr_contact_fraction);
         let sight = Sight { law, original, grid, report, jkr_contact_fraction, open: None, errors: None, seen: None };
-        Ok(Self::of(solution, sight, seconds))
+        Ok(Self::record(solution, sight, seconds))
     }
 
     /// The same by nested grids, with the applications on all of them.
@@ -158,7 +158,8 @@ impl<T: Real> Sight<T> {
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.
     pub(crate) fn estimate(&mut self, levels: &[Level], nodes_per_wave: f64) {
-        self.errors = Some((GridErrors::of(GridError::of_all(levels, &self.report, nodes_per_wave)), nodes_per_wave));
+        self.errors =
+            Some((GridErrors::record(GridError::of_all(levels, &self.report, nodes_per_wave)), nodes_per_wave));
     }
 }
 
