@@ -50,8 +50,8 @@ pub use varying::Varying;
 /// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law continues.
 ///
 /// [`check_law`] holds a law to this contract; the page [`own_law`](crate::guide::own_law) has one in a solve. A law
-/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate), [`contact_shares`](Self::contact_shares),
-/// [`on_nodes`](Self::on_nodes) and [`adapted`](Self::adapted).
+/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate),
+/// [`contact_shares`](Self::contact_shares), [`on_nodes`](Self::on_nodes) and [`adapted`](Self::adapted).
 ///
 /// ```
 /// use asperity::AdhesionLaw;

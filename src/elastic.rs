@@ -27,8 +27,9 @@ pub use westergaard::Westergaard;
 /// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing: both
 /// applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the homogeneous
 /// half-space under periodic loads, [`Boussinesq`] under loads on a window alone, [`Spectral`] any operator that
-/// multiplies each wave by a factor, as layers, coatings and other [bodies](Body) do. The page [`own_operator`](crate::guide::own_operator) has a layer of finite
-/// thickness, and tells how to implement the trait for another body.
+/// multiplies each wave by a factor, as layers, coatings and other [bodies](Body) do. The page
+/// [`own_operator`](crate::guide::own_operator) has a layer of finite thickness, and tells how to implement the trait
+/// for another body.
 ///
 /// Applications write into the caller's array and, for the operators of this crate, allocate nothing.
 ///

@@ -49,8 +49,8 @@ const PAYS: (usize, usize) = (1 << 16, 1 << 18);
 /// which is longer on coarser grids, and what has touched too early sticks.
 const WEAKER: [f64; 2] = [0.9, 0.5];
 
-/// The greatest [`Problem::mu_rho`] of a finest grid that coarser ones lead to on loading: it hardly resolves the adhesion. On a
-/// grid with 1.2, areas of contact are up to 17 % beyond the loading branch.
+/// The greatest [`Problem::mu_rho`] of a finest grid that coarser ones lead to on loading: it hardly resolves the
+/// adhesion. On a grid with 1.2, areas of contact are up to 17 % beyond the loading branch.
 const HARDLY_RESOLVED: f64 = 1.05;
 
 /// The relative load error at and above which a coarse solution is not used as a start.

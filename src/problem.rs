@@ -114,8 +114,8 @@ impl<T: Real> Problem<T> {
     /// Puts another law in the place of the adhesion law, without an operator application.
     ///
     /// # Errors
-    /// [`Error::Contract`](crate::Error::Contract) if the law is not finite at zero gap; [`Error::Shape`](crate::Error::Shape) if
-    /// it varies over another grid.
+    /// [`Error::Contract`](crate::Error::Contract) if the law is not finite at zero gap;
+    /// [`Error::Shape`](crate::Error::Shape) if it varies over another grid.
     pub fn set_law(&mut self, law: impl AdhesionLaw<T> + 'static) -> Result<()> {
         let law = SharedLaw::new(law);
         let on_nodes = on_grid(&*law, self.operator.grid(), self.operator.modulus());

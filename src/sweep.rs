@@ -104,8 +104,9 @@ impl<T: Real> Sweep<T> {
         self.history.iter_mut().map(|(_, place)| &mut place.gap).chain(&mut self.depth)
     }
 
-    /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
-    /// grid of the operator: processes that share a grid gather these as they do the fields.
+    /// Where surfaces have not parted, of a law that attracts [next to contacts
+    /// alone](crate::adhesion::Hints::touching), on the grid of the operator: processes that share a grid gather these
+    /// as they do the fields.
     #[doc(hidden)]
     pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
         self.history.iter_mut().filter_map(|(_, place)| place.not_parted.as_mut())

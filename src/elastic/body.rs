@@ -20,8 +20,8 @@ pub use series::Series;
 
 /// An elastic body with properties that do not change along its surface: a wave of displacement û needs a pressure k û.
 ///
-/// [`Spectral::of`](crate::Spectral::of) makes an operator of it. [`HalfSpace`], [`Layer`], [`Coating`], [`Plate`] and [`Series`],
-/// two bodies that both deform, are bodies; one of your own is its stiffness and its modulus.
+/// [`Spectral::of`](crate::Spectral::of) makes an operator of it. [`HalfSpace`], [`Layer`], [`Coating`], [`Plate`] and
+/// [`Series`], two bodies that both deform, are bodies; one of your own is its stiffness and its modulus.
 ///
 /// ```
 /// use asperity::elastic::{Base, Body, Layer, Material};

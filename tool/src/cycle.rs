@@ -24,20 +24,21 @@ use crate::units::Units;
 keys! {
     /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
     ///
-    /// Numbers may have units, all of them or none, as for asperity solve. The loads are the turning points, at least two:
-    /// the first is the start, and the program goes from each to the next in adaptive steps, on approach or withdrawal. A
-    /// withdrawal ends once the surfaces do not touch, and hardly attract each other: below a thousandth of the greatest
-    /// tension. Where the state jumps, the step is halved down to a given share of the way, which locates the jump and the
-    /// energy that it dissipates. A limit point is the greatest or least load of a branch; beyond it, a cycle along
-    /// pressures or forces continues at given mean gaps (with a free boundary at given approaches). Each state gives a row
-    /// of the file. It has the columns of asperity sweep, the work of the load and the energy dissipated in jumps so far,
-    /// the imbalance of energy (all per area), and the event on the way to it: touch, jump-in, jump-out, pull-off,
-    /// limit-point, bifurcation. With jkr the same cycle on half as many nodes along the sides tells the limits of no range
-    /// of the work and of the greatest tension, with their errors, and --accuracy takes the coarsest grid that has them. With a
-    /// hardness the surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command
-    /// continues an interrupted cycle; for that it keeps FILE.state next to the file, which may be deleted at the end. asperity
-    /// run FILE.scene.toml repeats or continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is
-    /// refused or a file cannot be written.
+    /// Numbers may have units, all of them or none, as for asperity solve. The loads are the turning points, at least
+    /// two: the first is the start, and the program goes from each to the next in adaptive steps, on approach or
+    /// withdrawal. A withdrawal ends once the surfaces do not touch, and hardly attract each other: below a thousandth
+    /// of the greatest tension. Where the state jumps, the step is halved down to a given share of the way, which
+    /// locates the jump and the energy that it dissipates. A limit point is the greatest or least load of a branch;
+    /// beyond it, a cycle along pressures or forces continues at given mean gaps (with a free boundary at given
+    /// approaches). Each state gives a row of the file. It has the columns of asperity sweep, the work of the load and
+    /// the energy dissipated in jumps so far, the imbalance of energy (all per area), and the event on the way to it:
+    /// touch, jump-in, jump-out, pull-off, limit-point, bifurcation. With jkr the same cycle on half as many nodes
+    /// along the sides tells the limits of no range of the work and of the greatest tension, with their errors, and
+    /// --accuracy takes the coarsest grid that has them. With a hardness the surface keeps its plastic depth, and the
+    /// balance has the energy that yielding dissipates. The same command continues an interrupted cycle; for that it
+    /// keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
+    /// continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file
+    /// cannot be written.
     ///
     /// # Examples
     ///   Approach and withdrawal of a map of 1 by 1, with a picture of the loop:

@@ -97,8 +97,8 @@ impl Progress {
         }
     }
 
-    /// The listener to the solves of a search for the pull-off, which is announced before the first: the bar has the grid, the solve and its mean pressure, and
-    /// so have lines now and then where there is no bar.
+    /// The listener to the solves of a search for the pull-off, which is announced before the first: the bar has the
+    /// grid, the solve and its mean pressure, and so have lines now and then where there is no bar.
     pub fn on_tensions<'a>(
         &'a mut self,
         announcement: &'a str,

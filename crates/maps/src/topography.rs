@@ -259,8 +259,8 @@ impl Topography {
     /// original of a mirrored map keeps its sides.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero, or on a mirrored map odd; [`Error::Memory`] if they take more than there is;
-    /// [`Error::NotFinite`] if heights are missing.
+    /// [`Error::Value`] if a number of nodes is zero, or on a mirrored map odd; [`Error::Memory`] if they take more
+    /// than there is; [`Error::NotFinite`] if heights are missing.
     pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
         let before = self.heights.dim();
         if let Some((x, y)) = self.original {

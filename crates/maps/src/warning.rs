@@ -153,7 +153,8 @@ impl Warning {
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
     /// [`Ends`](WarningCode::Ends), [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth),
     /// [`Spikes`](WarningCode::Spikes), [`LineOffsets`](WarningCode::LineOffsets),
-    /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat). The first three are none where the boundary is free.
+    /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat). The
+    /// first three are none where the boundary is free.
     ///
     /// Before all, numbers that are no heights: [`Axes`](WarningCode::Axes), and [`ByteOrder`](WarningCode::ByteOrder),
     /// which comes alone.

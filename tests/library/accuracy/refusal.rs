@@ -23,7 +23,8 @@ fn grids_that_say_nothing_leave_the_error_unknown() {
         assert!(error.rough && error.order.is_none() && error.relative > 0.3 / nodes_per_wave.powi(2), "{error:?}");
         assert_eq!(estimate(n, Quantity::Gap, nodes_per_wave, mu_rho, tolerance), None);
     }
-    // a surface without waves tells nothing by them, and neither do they where the grid itself does not resolve them, or the adhesion
+    // a surface without waves tells nothing by them, and neither do they where the grid itself does not resolve them,
+    // or the adhesion
     assert_eq!(estimate(32, Quantity::Area, f64::INFINITY, 0.0, 1e-3), None);
     assert_eq!(estimate(128, Quantity::Area, 3.9, 0.0, 1e-3), None);
     assert_eq!(estimate(128, Quantity::Area, waves, 0.51, 1e-3), None);

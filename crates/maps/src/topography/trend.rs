@@ -17,8 +17,8 @@ pub enum Trend {
     Plane,
     /// The quadric a + bx + cy + dx² + exy + fy², as for a sphere or a cylinder.
     Quadric,
-    /// The polynomial of all terms xⁱyᵏ with i + k up to an order, at most [`Trend::HIGHEST_ORDER`]: orders 0, 1 and 2 are the
-    /// three above.
+    /// The polynomial of all terms xⁱyᵏ with i + k up to an order, at most [`Trend::HIGHEST_ORDER`]: orders 0, 1 and 2
+    /// are the three above.
     Polynomial(usize),
 }
 

@@ -110,7 +110,8 @@ pub fn sided(map: Map, given: &Entries, si: bool, skin: Skin) -> Result<Map, Str
     Err(worded(&text, skin))
 }
 
-/// Refuses heights with missing points, of a map with so many nodes in all, but for those that are NaN where they stand for absent nodes.
+/// Refuses heights with missing points, of a map with so many nodes in all, but for those that are NaN where they stand
+/// for absent nodes.
 ///
 /// # Errors
 /// The name, the first of them and the remedy, in the words of a skin.

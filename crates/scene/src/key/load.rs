@@ -242,7 +242,8 @@ impl Load {
         if let Self::Fraction(fraction) = self { Some(fraction) } else { None }
     }
 
-    /// Refuses a load that a boundary does not have, or a periodic body that yields to its base or not, and a tension between surfaces that do not adhere.
+    /// Refuses a load that a boundary does not have, or a periodic body that yields to its base or not, and a tension
+    /// between surfaces that do not adhere.
     ///
     /// # Errors
     /// The reason and the remedy, for [`worded`](crate::worded).

@@ -76,9 +76,9 @@ impl<T: Real> Judge<'_, T> {
         need(light || said <= own + allowed, || format!("certificate {said:e} is far more than {own:e}"))
     }
 
-    /// The residual of what is left of the load, `sum`: the certificate is at the present mean of the gap over all nodes, absent
-    /// ones too, where nodes that rest bear their own share of the load alone; on the window they bear the share of absent nodes,
-    /// too. The error by either is in this one, so that the two differ by it twice at most.
+    /// The residual of what is left of the load, `sum`: the certificate is at the present mean of the gap over all
+    /// nodes, absent ones too, where nodes that rest bear their own share of the load alone; on the window they bear
+    /// the share of absent nodes, too. The error by either is in this one, so that the two differ by it twice at most.
     fn of_load(&self, residual: &[f64], sum: f64) -> Vec<f64> {
         let share = &self.dense.share;
         let rests: Vec<f64> = residual.iter().map(|&r| if r == 0.0 { 1.0 } else { 0.0 }).collect();
