@@ -21,7 +21,7 @@ PLAIN, SHARED = str(TARGET / "release/asperity"), str(TARGET / "mpi/asperity")
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
-def of(processes, threads):
+def mpi(processes, threads):
     """The command of the tool with MPI."""
     job = ["mpiexec", "-q", "--oversubscribe", "--bind-to", "none", "-n", str(processes), SHARED]
     return job, threads
@@ -29,10 +29,10 @@ def of(processes, threads):
 
 CASES = {
     "without MPI, 1 thread": ([PLAIN], 1),
-    "1 process, 1 thread": of(1, 1),
+    "1 process, 1 thread": mpi(1, 1),
     "without MPI, 2 threads": ([PLAIN], 2),
-    "1 process, 2 threads": of(1, 2),
-    "2 processes, 1 thread": of(2, 1),
+    "1 process, 2 threads": mpi(1, 2),
+    "2 processes, 1 thread": mpi(2, 1),
 }
 RATIOS = [
     ("1 process, 1 thread", "without MPI, 1 thread"),

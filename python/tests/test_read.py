@@ -55,15 +55,15 @@ def gwy(path, *channels):
     def text(value):
         return value.encode() + b"\0"
 
-    def of(name, *items):
+    def record(name, *items):
         data = b"".join(items)
         return text(name) + struct.pack("<I", len(data)) + data
 
     def field(heights):
         nx, ny = heights.shape
         values = heights.T.astype("<f8").tobytes()  # rows along x
-        unit = of("GwySIUnit", item("unitstr", "s", text("m")))
-        return of(
+        unit = record("GwySIUnit", item("unitstr", "s", text("m")))
+        return record(
             "GwyDataField",
             item("xres", "i", struct.pack("<i", nx)),
             item("yres", "i", struct.pack("<i", ny)),
@@ -78,7 +78,7 @@ def gwy(path, *channels):
     for number, (title, heights) in enumerate(channels):
         items.append(item(f"/{number}/data", "o", field(heights)))
         items.append(item(f"/{number}/data/title", "s", text(title)))
-    path.write_bytes(b"GWYP" + of("GwyContainer", *items))
+    path.write_bytes(b"GWYP" + record("GwyContainer", *items))
 
 
 def test_a_channel_of_several_is_chosen_by_number_or_title(tmp_path):

@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::minimisation::{Made, Next, Residual, Step};
-use super::passes::{self, Advance, Continued, Fields, Taken, Tally, Working};
+use super::passes::{self, Advance, Continued, Fields, FullTally, Tally, Working};
 use super::posed::Posed;
 use super::start::{Begin, check_start, given_start, uniform_start};
 use super::work::Work;
@@ -246,7 +246,7 @@ impl<'a, T: Real, Lo: Real> Iterate<'a, T, Lo> {
         let offset = T::lit(self.offset());
         let local = self.posed.potential();
         let taken = passes::tally(&mut self.fields, &local, offset, &self.posed.flat.pressure);
-        let Taken { mut tally, gap_surface, sum_p } = taken;
+        let FullTally { mut tally, gap_surface, sum_p } = taken;
         self.drift = sum_p / self.posed.nodes();
         self.given = self.posed.load.pressure_at(tally.sum_gap / self.posed.nodes());
         tally.shift(T::lit(self.offset()).widen() - offset.widen());

@@ -16,7 +16,7 @@ pub(super) use held::{hold, release_held};
 pub(super) use residual::{Continued, Working};
 pub(super) use residual::{idle, release, released, residual};
 pub(super) use step::{Advance, Attempt, Tried, advance, energy_after, reach, trial};
-pub(super) use tally::{Taken, Tally, tally};
+pub(super) use tally::{FullTally, Tally, tally};
 
 /// The fields of a solve: the state in the precision T, its corrections in Lo.
 #[derive(Debug)]

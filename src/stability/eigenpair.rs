@@ -37,21 +37,21 @@ pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most
     })
 }
 
-pub(super) struct Found {
+pub(super) struct Estimate {
     pub(super) value: f64,
     pub(super) residual: f64,
     pub(super) noise: f64,
     pub(super) iteration: usize,
 }
 
-/// The eigenpair from an admissible start, until `Found` is accurate enough. If `confirmed`, one more application
+/// The eigenpair from an admissible start, until `Estimate` is accurate enough. If `confirmed`, one more application
 /// computes the image Hx, which the iteration only updates.
 pub(super) fn lowest_from<T: Real>(
     hessian: &mut Hessian<'_, T>,
     mut x: Field<T>,
     most: usize,
     confirmed: bool,
-    enough: impl Fn(&Hessian<'_, T>, &Found) -> bool,
+    enough: impl Fn(&Hessian<'_, T>, &Estimate) -> bool,
 ) -> Result<Eigenpair<T>> {
     let shape = hessian.shape();
     let [mut ax, mut w, mut aw, mut p, mut ap] = std::array::from_fn(|_| Field::<T>::zeros(shape));
@@ -65,7 +65,7 @@ pub(super) fn lowest_from<T: Real>(
         hessian.combine(1.0, &mut w, -value, &x);
         let residual = hessian.product(&w, &w).sqrt();
         let noise = noise::<T>(hessian, &ax, value);
-        let done = residual <= noise || enough(hessian, &Found { value, residual, noise, iteration });
+        let done = residual <= noise || enough(hessian, &Estimate { value, residual, noise, iteration });
         if !residual.is_finite() || iteration >= most || done {
             if fresh || !confirmed {
                 return Ok(Eigenpair { value, residual, noise, vector: x });

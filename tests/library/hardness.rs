@@ -18,7 +18,7 @@ use asperity_maps::surface_with_absent;
 use ndarray::{Array2, Zip};
 use oracles::dense::Dense;
 use oracles::rough::rough as rough_surface;
-use oracles::{Kept, followed, rough, sphere, swept};
+use oracles::{Checkpoint, followed, rough, sphere, swept};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 

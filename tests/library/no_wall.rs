@@ -10,7 +10,7 @@ use asperity::*;
 use ndarray::Array2;
 
 use oracles::dense::{Dense, Held};
-use oracles::{Kept, followed, swept};
+use oracles::{Checkpoint, followed, swept};
 
 fn without_wall(tolerance: f64) -> Solver<NoWall> {
     Solver { settings: Settings::default().tolerance(tolerance), constraint: NoWall }

@@ -10,7 +10,7 @@ use asperity::path::{Event, Jump, Path, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::surface::Amplitude;
 use asperity::*;
-use oracles::{Kept, check, followed, rough, sphere};
+use oracles::{Checkpoint, check, followed, rough, sphere};
 
 /// Two equal waves, or nearly so.
 fn two_waves(n: usize, asymmetry: f64) -> Problem<f64> {

@@ -1,7 +1,7 @@
 //! Searches for the load of a contact fraction: what they find, what it costs, and what they say where there is none.
 
 use asperity::*;
-use oracles::{Kept, check, rough, sphere};
+use oracles::{Checkpoint, check, rough, sphere};
 
 /// Whether a contact fraction is within a node or 1 % of the wanted one.
 fn is_near(report: &Report, fraction: f64, facing: usize) -> bool {

@@ -6,7 +6,7 @@ use asperity::*;
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use oracles::rough::rough as rough_surface;
-use oracles::{Kept, check, rough, sphere, swept};
+use oracles::{Checkpoint, check, rough, sphere, swept};
 
 fn gaps(values: &[f64]) -> Vec<Control> {
     values.iter().copied().map(Control::MeanGap).collect()
@@ -100,7 +100,7 @@ fn a_sweep_that_is_kept_goes_on_bit_for_bit() {
 /// From each load on, at a problem that is made anew.
 fn goes_on<T: Real>(new: impl Fn() -> Problem<T>, loads: &[Control])
 where
-    Sweep<T>: Kept,
+    Sweep<T>: Checkpoint,
 {
     let all = sweep(&mut new(), loads);
     let (mut sweep, mut solver, mut problem) = (Sweep::default(), Solver::default(), new());

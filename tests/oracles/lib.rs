@@ -71,11 +71,11 @@ pub fn followed<T: Real>(
 }
 
 /// A value that is its own checkpoint, by JSON.
-pub trait Kept: Sized {
+pub trait Checkpoint: Sized {
     fn read_again(&self) -> Self;
 }
 
-impl<A: serde::Serialize + serde::de::DeserializeOwned> Kept for A {
+impl<A: serde::Serialize + serde::de::DeserializeOwned> Checkpoint for A {
     fn read_again(&self) -> Self {
         serde_json::from_str(&serde_json::to_string(self).unwrap()).unwrap()
     }

@@ -64,12 +64,12 @@ keys! {
 /// Runs the command; always successful if it ends.
 pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     let (options, printing) = (&scene.keys::<Options>(), scene.keys::<Printing>());
-    scene.check_beside(&options.out, options.force)?;
+    scene.check_next_to(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let mut log = Log::default();
     let map = prepared(options, scene, &mut log)?;
     file.write(|path| write_topography(path, &map))?;
-    let scene_file = scene.written_beside(&options.out)?;
+    let scene_file = scene.write_next_to(&options.out)?;
     scene_file.commit_after([file])?;
     printing.report(|| {
         json!({

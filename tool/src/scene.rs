@@ -90,7 +90,7 @@ impl SceneFile {
 
     /// Refuses a `file` next to which there is the scene of another run, unless `force` replaces it, or a file that was
     /// not written as a scene.
-    pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
+    pub fn check_next_to(&self, file: &Path, force: bool) -> Outcome<()> {
         let path = path_for(file);
         self.check(&path)?;
         // whatever version has written it
@@ -100,7 +100,7 @@ impl SceneFile {
     }
 
     /// The file FILE.scene.toml next to `file`, written but for its name.
-    pub fn written_beside(&self, file: &Path) -> Outcome<OutputFile> {
+    pub fn write_next_to(&self, file: &Path) -> Outcome<OutputFile> {
         let scene = OutputFile::create(&path_for(file), true)?;
         scene.write(|path| write_text(path, &self.text(folder_of(file))))?;
         Ok(scene)

@@ -149,7 +149,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
     if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
         return Err(format!("--psd is {}, the same as --out: give it a name of its own", options.out.display()).into());
     }
-    scene.check_beside(&options.out, options.force)?;
+    scene.check_next_to(&options.out, options.force)?;
     use_threads(options.threads)?;
 
     let (surface, map) = described.make()?;
@@ -166,7 +166,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         let text = density_table(&surface, target.as_ref(), unit);
         file.write(|path| write_text(path, &text))?;
     }
-    scene.written_beside(&options.out)?.commit_after(std::iter::once(heights).chain(psd))?;
+    scene.write_next_to(&options.out)?.commit_after(std::iter::once(heights).chain(psd))?;
     // what is absent has no statistics
     let ((nx, ny), found) = (grid.shape(), (absent == 0).then(|| (surface.statistics(), knee_wavelength(&surface))));
     printing.say(&match &found {

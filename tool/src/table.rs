@@ -147,9 +147,9 @@ impl<'a> TableOptions<'a> {
         let mut scene_file = None;
         processes.first(|| {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
-            scene.check_beside(out, force || out.exists())?;
+            scene.check_next_to(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
-            scene_file = Some(scene.written_beside(out)?);
+            scene_file = Some(scene.write_next_to(out)?);
             Ok(())
         })?;
         let (path, format, fields) = (out.to_owned(), Some(self.format), self.fields.map(Path::to_owned));

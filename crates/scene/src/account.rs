@@ -43,7 +43,7 @@ pub(crate) use self::row::INPUTS;
 pub use self::row::Row;
 use self::rows::Line::{self, Alone, Of, OfAdhesion, Words};
 pub use self::rows::rows;
-pub(crate) use self::sentences::{bytes, estimate, untold};
+pub(crate) use self::sentences::{bytes, estimate, missing_error};
 pub use self::sentences::{shortfalls, unbalanced};
 pub use self::slopes::Slopes;
 pub(crate) use self::warnings::warnings_of_input;
@@ -114,16 +114,16 @@ record! {
         mean_contact_pressure: f64 [PRESSURE] = report.mean_contact_pressure,
         /// Share of the nodes in contact, without absent nodes.
         contact_fraction: f64 as Share = report.contact_fraction,
-        /// Number of nodes in contact.
+        /// Nodes in contact.
         contact_nodes: usize = report.contact_nodes,
-        /// Number of absent nodes.
+        /// Absent nodes.
         absent_nodes: usize = report.absent_nodes,
         /// With a free boundary, the largest traction on the outermost nodes over the largest anywhere: above 0.001 the map
         /// is too small, unless the body ends there.
         edge_traction: Option<f64> as Share = report.edge_traction,
-        /// With `law` `jkr`, the contact fraction by the adhesive energy, −E_adh/w, which is too large.
+        /// With `jkr`, the contact fraction by the adhesive energy, −E_adh/w, which is too large.
         adhesive_contact_fraction: Option<f64> as Share = report.adhesive_contact_fraction,
-        /// With `law` `jkr`, the area of the theory of JKR, to be reported: the contact fraction by the adhesive energy, less
+        /// With `jkr`, the area of the theory of JKR, to be reported: the contact fraction by the adhesive energy, less
         /// the process zone at the edges.
         jkr_contact_fraction: Option<f64> as Share = found.sight.jkr_contact_fraction,
         /// Share of the area within the contact edge, located between the nodes. On rough surfaces it is 5 to 12 % too large
@@ -178,7 +178,7 @@ record! {
         transmissivity: Option<Along<Transmissivity>> = found.after.transmissivity,
         /// Unstable equilibria that were left.
         departures: Option<Vec<Left>> = found.departures.clone(),
-        /// With `law` `jkr`, the traction in contact of the grid, 2w/ρ.
+        /// With `jkr`, the traction in contact of the grid, 2w/ρ.
         peak_traction: Option<f64> [PRESSURE] = report.peak_traction,
         /// Resolution measure √(wΔx/E*)/ρ.
         mu_rho: f64 = report.mu_rho,

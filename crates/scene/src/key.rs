@@ -71,7 +71,7 @@ pub(crate) use self::boundary::peak;
 pub(crate) use self::entries::Read;
 pub(crate) use self::laws::WORK;
 pub(crate) use self::macros::{choice, keys, record};
-pub(crate) use self::number::is_told;
+pub(crate) use self::number::is_reported;
 pub(crate) use self::quantity::*;
 pub(crate) use self::units::{Units, is_unit};
 use crate::key::list::{Loads, parsed};

@@ -27,7 +27,7 @@ fn keys(value: &Value) -> Vec<&str> {
 
 /// The names of the numbers that a report has.
 fn names(lists: &[&[Number]]) -> Vec<&'static str> {
-    lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_told).map(|number| number.name).collect()
+    lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_reported).map(|number| number.name).collect()
 }
 
 fn scene() -> Scene {

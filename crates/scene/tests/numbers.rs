@@ -35,13 +35,13 @@ fn is_among(list: &str, name: &str) -> bool {
 }
 
 fn select<'a>(lists: &[&'a [Number]]) -> Vec<&'a Number> {
-    lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_told).collect()
+    lists.iter().flat_map(|list| list.iter()).filter(|number| number.is_reported).collect()
 }
 
 /// The numbers of the report of a solve, in their order: the numbers of some fields are among the others.
 fn of_report() -> Vec<&'static Number> {
     fn in_place(number: &'static Number) -> Vec<&'static Number> {
-        let within = match (number.is_told, number.kind) {
+        let within = match (number.is_reported, number.kind) {
             (true, _) => return vec![number],
             (_, "Inputs") => Inputs::NUMBERS,
             (_, "Slopes") => Slopes::NUMBERS,

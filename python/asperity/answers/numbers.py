@@ -288,7 +288,7 @@ class Numbers:
 
     @property
     def absent_nodes(self) -> int:
-        """Number of absent nodes."""
+        """Absent nodes."""
         return self._told["absent_nodes"]
 
     @property

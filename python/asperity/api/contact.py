@@ -22,7 +22,7 @@ from ..answers.rows import Rows
 from ..answers.solution import Solution, Start
 from ..answers.sweep import Sweep
 from ..bodies.body import Body, Symbol
-from ..bodies.measured import Measured
+from ..bodies.parameters import Parameters
 from ..bodies.wall import Penalty, Uzawa
 from ..common.progress import default_progress
 from ..common.types import (
@@ -155,7 +155,7 @@ class Contact(Posed):
         self.body, self.law = body, law if law is not None else keys.get("law")
         if law is not None:
             refuse_both("law", OF_LAWS, keys)
-        if not isinstance(body, Measured | Symbol | None):
+        if not isinstance(body, Parameters | Symbol | None):
             raise TypeError(f"body is {shown(body)}: it must be an asperity.Layer, Coating or Symbol")
         order = read_axes(heights, axes)
         if order == "yx" and isinstance(law, Varying) and not law.knows_axes:
@@ -170,7 +170,7 @@ class Contact(Posed):
             )
         wall = keys.get("wall")
         for name, described in (("wall", wall), ("body", body)):
-            if isinstance(described, Measured):
+            if isinstance(described, Parameters):
                 keys.pop(name, None)
                 refuse_both(name, described.keys, keys)
                 keys.update(described.keys)
@@ -198,7 +198,7 @@ class Contact(Posed):
         self._warned = set()
 
     def __repr__(self) -> str:
-        given = {**self._keys, "law": self.law, "body": None if isinstance(self.body, Measured) else self.body}
+        given = {**self._keys, "law": self.law, "body": None if isinstance(self.body, Parameters) else self.body}
         told = [f"{key}={shown(value)}" for key, value in given.items() if value is not None and key != "lengths"]
         return f"Contact({', '.join([repr(self.topography), *told])})"
 

@@ -11,7 +11,7 @@ from .._asperity import Iteration
 from ..answers.findings import Stability
 from ..answers.solution import Solution, Start
 from ..bodies.body import Body
-from ..bodies.measured import Measured
+from ..bodies.parameters import Parameters
 from ..bodies.wall import Penalty, Uzawa
 from ..common.types import (
     AccuracyOf,
@@ -359,7 +359,7 @@ def stability(
         keys["range"] = None
     if solution.body is not None:
         keys.update(
-            dict.fromkeys(solution.body.keys if isinstance(solution.body, Measured) else ()), body=solution.body
+            dict.fromkeys(solution.body.keys if isinstance(solution.body, Parameters) else ()), body=solution.body
         )
     keys["absent_missing"], keys["whole"] = report["absent_nodes"] > 0, report["part"] == "whole"
     keys["branch"] = None

@@ -10,11 +10,11 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from numpy.typing import ArrayLike
 
 from ..common.types import Quantity
-from .measured import Measured
+from .parameters import Parameters
 
 
 @dataclass(frozen=True)
-class Layer(Measured):
+class Layer(Parameters):
     """An elastic layer on a rigid base, instead of a half-space; ``modulus`` is its contact modulus E*.
 
     A layer that is thick compared with the wavelength acts like a half-space. A thin one acts like springs of stiffness
@@ -53,7 +53,7 @@ class Layer(Measured):
 
 
 @dataclass(frozen=True)
-class Coating(Measured):
+class Coating(Parameters):
     """An elastic coating that is bonded to a half-space; ``modulus`` of the solve is the half-space's E*.
 
     Waves that are short compared with the thickness have the stiffness of the coating, and long ones the stiffness of

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from ..common.types import Quantity
-from .measured import Measured
+from .parameters import Parameters
 
 
 @dataclass(frozen=True)
-class _Springs(Measured):
+class _Springs(Parameters):
     stiffness: Quantity
 
     _keys: ClassVar[dict[str, str]] = {"stiffness": "wall_stiffness"}

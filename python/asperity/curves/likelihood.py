@@ -104,9 +104,9 @@ class Likelihood:
         for name in self.names:
             # a simpler model that is true is ruled out as often as intervals may miss: it stays in them for longer
             if tip.fewer[name] and self.probabilities[name] >= DOUBTFUL:
-                room[self.of(name)] = self.most - self.least
+                room[self.best_of(name)] = self.most - self.least
             elif not tip.adheres(name):
-                room[self.of(name)] = -1.0
+                room[self.best_of(name)] = -1.0
         room[self.best] = self.most - self.least
         self.likely = self.family[room[self.family] >= 0.0]
         self.room = np.maximum(room, 0.0)
@@ -117,7 +117,7 @@ class Likelihood:
         rows = zip(fits.modulus, fits.work, fits.tabor, fits.point - first)
         return np.array([self.curve.tip.holds(*map(float, row)) for row in rows])
 
-    def of(self, name: str) -> int:
+    def best_of(self, name: str) -> int:
         """The best fit of a model."""
         rows = self.family[self.fits.model[self.family] == name]
         return int(rows[np.argmin(self.fits.squares[rows])])
@@ -162,7 +162,7 @@ class Likelihood:
 
     def _probability(self, name: str) -> float:
         """The probability of what is seen if a model was true."""
-        fits, row = self.fits, self.of(name)
+        fits, row = self.fits, self.best_of(name)
         others = [one for one in self.family if fits.model[one] != name]
         if self.inner.size and name == fits.model[self.inner[0]]:
             # which the others are limits of, but for DMT without a force before contact
@@ -309,7 +309,7 @@ class Likelihood:
             return Estimate(np.nan, 0.0, np.inf)
         ends = {"JKR": (0.0, 0.0, 0.0), "DMT": (np.inf, np.inf, np.inf)}
 
-        def of(row: int) -> tuple[float, float, float]:
+        def span(row: int) -> tuple[float, float, float]:
             if (name := str(fits.model[row])) in ends:
                 return ends[name]
             tangent = np.array([-2.0, 4.0 / max(fits.root_work[row], 1e-9)]) / 3.0
@@ -318,8 +318,8 @@ class Likelihood:
             length = tip.length(fits.modulus[row], fits.work[row]) / float(fits.tabor[row])
             return length, length * float(np.exp(-half)), length * float(np.exp(min(half, 99.0)))
 
-        spans = [of(row) for row in self.likely if not self.bare[row]]
-        return Estimate(of(self.best)[0], min(lower for _, lower, _ in spans), max(upper for _, _, upper in spans))
+        spans = [span(row) for row in self.likely if not self.bare[row]]
+        return Estimate(span(self.best)[0], min(lower for _, lower, _ in spans), max(upper for _, _, upper in spans))
 
     def covariance(self) -> Array:
         """The covariance over all Tabor parameters: that within fits, and that between them."""
@@ -338,7 +338,7 @@ class Likelihood:
 
     def model(self, name: str) -> ModelFit:
         """A row of the models."""
-        row, points = self.of(name), self.curve.z.size
+        row, points = self.best_of(name), self.curve.z.size
         squares, fewer = float(self.fits.squares[row]), self.curve.tip.fewer[name]
         aic = points * np.log(max(squares, 1e-300) / points) - 2.0 * fewer
         work = 0.0 if self.bare[row] else float(self.fits.work[row])

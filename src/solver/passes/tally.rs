@@ -40,7 +40,7 @@ impl Tally {
 
 found! {
     /// A tally with two more sums.
-    pub(in crate::solver) struct Taken {
+    pub(in crate::solver) struct FullTally {
         pub(in crate::solver) tally: Tally,
         /// Σ g·K⁻¹h
         pub(in crate::solver) gap_surface: f64,
@@ -96,18 +96,18 @@ pub(in crate::solver) fn tally<T: Real, Lo: Real>(
     local: &Potential<'_, T>,
     offset: T,
     surface: &Field<T>,
-) -> Taken {
+) -> FullTally {
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
     let chunks = read(gap).zip(read(pressure)).zip(read(surface));
     let total = local.run(reducer, chunks, |local, first, ((gap, pressure), surface)| {
         let mut tractions = [T::zero(); CHUNK];
         let tally = tally_chunk(local, offset, first, (gap, pressure), &mut tractions[..gap.len()]);
-        let more = sums!([gap, pressure, surface], [], |i| {} => Taken {
+        let more = sums!([gap, pressure, surface], [], |i| {} => FullTally {
             gap_surface: gap[i].widen() * surface[i].widen(), sum_p: pressure[i].widen()
         });
-        Taken { tally, ..more }
+        FullTally { tally, ..more }
     });
-    reducer.keep(|taken: Taken| taken.tally.min_r.0, least_r);
+    reducer.keep(|taken: FullTally| taken.tally.min_r.0, least_r);
     total
 }
 
@@ -134,7 +134,7 @@ mod tests {
             |value: &dyn Fn(usize) -> i64| Field::from_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32);
         let mut fields = Fields::<_, f32>::new(&Grid::square(n, 1.0).unwrap(), field(&gap), field(&pressure));
         let nothing = Potential::new(&NoAdhesion, &Projection, None);
-        let Taken { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
+        let FullTally { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
         let [mut free, mut sum_r, mut sum_gap, mut sum_gp, mut sum_gh, mut all] = [0_i128; 6];
         for i in 0..n * n {
             let [g, p, h] = [gap(i), pressure(i), surface(i)].map(i128::from);

@@ -39,7 +39,7 @@ impl Text {
     }
 
     /// The heading of a block, on top of the block or of a block before.
-    fn told_of(&self, place: usize) -> &Heading {
+    fn heading_of(&self, place: usize) -> &Heading {
         let mut headings = self.blocks[..=place].iter().rev().map(|block| &block.heading);
         headings.find(|heading| heading.tells()).unwrap_or(&self.blocks[place].heading)
     }
@@ -47,7 +47,7 @@ impl Text {
     /// The channels, by their places and titles.
     pub fn channels(&self) -> Parsed<Vec<Channel>> {
         let channel = |(number, block): (usize, &Block)| {
-            let mut sizes = self.told_of(number).sizes((block.rows, block.columns))?;
+            let mut sizes = self.heading_of(number).sizes((block.rows, block.columns))?;
             let vertical = sizes.units[2].take().unwrap_or_default();
             let is_of_heights = vertical.is_empty() || is_length(&vertical);
             let shape = || format!("{} x {} numbers", block.rows, block.columns);
@@ -80,7 +80,7 @@ impl Text {
 
     fn map_of(mut self, place: usize) -> Parsed<Topography> {
         let &Block { mut rows, mut columns, ref values, ref heading, .. } = &self.blocks[place];
-        let told = self.told_of(place);
+        let told = self.heading_of(place);
         let mut sizes = told.sizes((rows, columns))?;
         // one number a line
         if let [Some(nx), Some(ny)] = sizes.pixels

@@ -23,7 +23,7 @@ record! {
         relative_error: f64 as Error = report.relative_error,
         /// Error of the load.
         load_error: f64 as Error = report.load_error,
-        /// Number of operator applications.
+        /// Operator applications.
         operator_applications: usize = report.operator_applications,
         /// Share of the nodes in contact.
         contact_fraction: f64 as Share = report.contact_fraction,
@@ -50,9 +50,9 @@ record! {
         shape: (usize, usize) = level.shape,
         /// How its solve ended.
         status: Status = level.status,
-        /// Number of iterations.
+        /// Iterations.
         iterations: usize = level.iterations,
-        /// Number of operator applications.
+        /// Operator applications.
         operator_applications: usize = level.operator_applications,
         /// Certified relative error.
         relative_error: f64 as Error = level.relative_error,
@@ -68,7 +68,7 @@ record! {
         contact_fraction: f64 as Share = level.area.contact_fraction,
         /// Share of the area within the contact edge.
         corrected_contact_fraction: f64 as Share = level.area.corrected_contact_fraction,
-        /// With `law` `jkr`, the area of the theory of JKR.
+        /// With `jkr`, the area of the theory of JKR.
         jkr_contact_fraction: Option<f64> as Share = level.area.jkr_contact_fraction,
         /// Contact stiffness, if it was asked for.
         contact_stiffness: Option<f64> [PRESSURE_PER_LENGTH] = level.stiffness.map(|found| found.pressure_per_length),
@@ -145,7 +145,7 @@ record! {
         below: Option<f64> = found.below,
         /// Nearest contact fraction above.
         above: Option<f64> = found.above,
-        /// Number of solves.
+        /// Solves.
         solves: usize = found.solves,
         /// Operator applications of all solves.
         operator_applications: usize = found.operator_applications,
@@ -168,7 +168,7 @@ record! {
         error_bound: Option<f64> = found.error_bound,
         /// Whether the law was smoothed.
         smoothed: bool = found.smoothed,
-        /// Number of operator applications, with the applications for the bound.
+        /// Operator applications, with the applications for the bound.
         operator_applications: usize = found.operator_applications + found.bound_applications,
     }
 }

@@ -50,7 +50,7 @@ record! {
         tolerance: f64 = scene.tolerance(),
         /// Iterations after which a solve gives up.
         max_iterations: usize = scene.settings().max_iterations,
-        /// Number of threads.
+        /// Threads.
         threads: usize = threads,
         /// Version of the program.
         version: &'static str = env!("CARGO_PKG_VERSION"),

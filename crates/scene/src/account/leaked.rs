@@ -63,7 +63,7 @@ record! {
         gap: f64 [LENGTH] = found.gap,
         /// Node there.
         node: (usize, usize) = found.node,
-        /// Number of nodes on the passage.
+        /// Nodes on the passage.
         path_nodes: usize = found.path.len(),
     }
 }

@@ -4,7 +4,7 @@ use asperity::contact::ContactStatistics;
 use asperity::{Real, Result, Solution};
 use ndarray::ArrayView2;
 
-use crate::account::{Account, Answer, Inputs, Sight, untold};
+use crate::account::{Account, Answer, Inputs, Sight, missing_error};
 use crate::key::{Adhesion, Notice};
 
 impl<T: Real> Answer<T> {
@@ -77,7 +77,7 @@ impl<T: Real> Sight<T> {
         if let Some((errors, nodes_per_wave)) = self.errors {
             (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
             let is_told = errors.in_words(account.accuracy.map(|reached| reached.of)).is_some();
-            account.grid_error_reason = (!is_told || errors.area.is_none()).then(|| untold(account));
+            account.grid_error_reason = (!is_told || errors.area.is_none()).then(|| missing_error(account));
         }
     }
 }

@@ -24,7 +24,7 @@ record! {
         pull_off_pressure: Option<f64> [PRESSURE] = is_borne(report).then_some(-report.mean_pressure),
         /// Force of the greatest tension.
         pull_off_force: Option<f64> [FORCE] = is_borne(report).then_some(-report.normal_force),
-        /// With `law` `jkr`, the pull-off in the limit of no range.
+        /// With `jkr`, the pull-off in the limit of no range.
         limit_pressure: Option<f64> [PRESSURE] = accurate.ok().and_then(|found| found.limit),
         /// Force of the pull-off in the limit of no range.
         limit_force: Option<f64> [FORCE] = accurate.ok()
@@ -51,7 +51,7 @@ record! {
         preload: Option<f64> = asked.preload,
         /// Branch of the first solve, unless its start was given.
         branch: Option<Branch> = found.branch,
-        /// Number of solves.
+        /// Solves.
         solves: usize = found.solves,
         /// Operator applications of all solves.
         operator_applications: usize = found.operator_applications,

@@ -25,7 +25,7 @@ record! {
         account: Account = account.clone(),
         /// In tables of an interface, the approach of the mean planes since first touch.
         closure: Option<f64> [LENGTH] = touch.map(|touch| touch - account.mean_gap),
-        /// Number of separate contacts.
+        /// Separate contacts.
         clusters: usize = sizes.len(),
         /// Nodes of the largest contact.
         largest_cluster: usize = sizes.first().copied().unwrap_or(0),

@@ -145,11 +145,11 @@ pub(crate) fn estimate(account: &Account) -> String {
     let coarse = of_accuracy.is_none() && account.nodes_per_wave < GridError::LEAST_NODES_PER_WAVE;
     let remedy = if coarse { ": refine the map ({accuracy})" } else { "" };
     let words = account.grid_error.and_then(|errors| errors.in_words(of_accuracy));
-    words.unwrap_or_else(|| format!("unknown: {}{remedy}", untold(account)))
+    words.unwrap_or_else(|| format!("unknown: {}{remedy}", missing_error(account)))
 }
 
-/// Why an error of the grid is not told.
-pub(crate) fn untold(account: &Account) -> String {
+/// The reason for no error of the grid.
+pub(crate) fn missing_error(account: &Account) -> String {
     let least = GridError::LEAST_NODES_PER_WAVE;
     if account.inputs.adhesion.yields() {
         "the surface yields".to_owned()

@@ -105,7 +105,7 @@ macro_rules! record {
                     $($crate::key::Measure::$measure,)?
                     $crate::key::Measure::Plain,
                 ][0],
-                is_told: $crate::key::is_told(&[$(stringify!($place))?]),
+                is_reported: $crate::key::is_reported(&[$(stringify!($place))?]),
             },)*];
 
             /// The record of what is given.

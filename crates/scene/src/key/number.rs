@@ -14,7 +14,7 @@ pub struct Number {
     /// The measure.
     pub measure: Measure,
     /// Whether a report has the number under its name: neither within others nor left out.
-    pub is_told: bool,
+    pub is_reported: bool,
 }
 
 /// The measure of a number: how people read it.
@@ -33,6 +33,6 @@ pub enum Measure {
 }
 
 /// Whether a report has a field that is in this place, which is none for a number of its own.
-pub(crate) const fn is_told(place: &[&str]) -> bool {
+pub(crate) const fn is_reported(place: &[&str]) -> bool {
     place.is_empty()
 }

@@ -8,7 +8,7 @@ from .. import _asperity
 from ..common.units import number
 
 
-class Measured:
+class Parameters:
     """A frozen dataclass of numbers, with the keys that scenes have for them: all with units, or none."""
 
     _keys: ClassVar[dict[str, str]]
