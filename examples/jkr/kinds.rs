@@ -107,6 +107,9 @@ pub fn table(count: usize, seed: u64, only: Option<&str>) -> Outcome<()> {
 }
 
 fn coverage(pairs: &[Pair]) -> String {
+    if pairs.is_empty() {
+        return "–".to_owned();
+    }
     let within = pairs.iter().filter(|(off, estimate)| off <= estimate).count();
     let median = |of: fn(&Pair) -> f64| 100.0 * quantile(&mut pairs.iter().map(of).collect::<Vec<_>>(), 0.5);
     format!("{within}/{}, {:.2} of {:.2}", pairs.len(), median(|pair| pair.0), median(|pair| pair.1))
