@@ -13,7 +13,7 @@ DOORS = ("__init__", "__main__")
 def floors():
     """The floor of each room by its name, from the picture."""
     page = (ROOT / "src" / "guide" / "architecture.md").read_text(encoding="utf-8")
-    picture = page.split("Those of `python/asperity`,")[1].split("```text\n")[1].split("```")[0]
+    picture = page.split("The folders of `python/asperity`,")[1].split("```text\n")[1].split("```")[0]
     return {name: floor for floor, line in enumerate(picture.splitlines()) for name in line.split("  ")[0].split()}
 
 
