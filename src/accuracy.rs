@@ -17,6 +17,7 @@ use crate::stability::EdgeError;
 use crate::surface::{Surface, mirror};
 
 mod bearing;
+mod fitted;
 mod goal;
 mod loop_grid;
 mod loops;
@@ -25,6 +26,8 @@ mod pull_off;
 mod refine;
 mod refinement;
 mod zone;
+
+use fitted::{EDGE, Factors};
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
 pub use loop_grid::LoopGrid;
@@ -61,19 +64,6 @@ names!(Quantity {
     Work = "work",
     Tension = "tension",
 });
-
-/// The factors of an error without adhesion.
-struct Factors {
-    /// Of the difference to a coarser grid.
-    difference: f64,
-    /// Of the change of the counted area to that grid.
-    edge: f64,
-    /// Of the power of the nodes in the shortest wave, and that power.
-    waves: f64,
-    order: f64,
-    /// Of the inverse square of the nodes in the shortest wave, in the estimate to be expected.
-    expected: f64,
-}
 
 impl Quantity {
     /// The quantities of a solution.
@@ -154,7 +144,7 @@ impl Quantity {
         if !(value.is_finite() && coarser.is_finite()) || value == 0.0 {
             return None;
         }
-        let factors = self.factors_on(fine.shape.0 == 1 || fine.shape.1 == 1);
+        let factors = Factors::of(self, fine.shape.0 == 1 || fine.shape.1 == 1)?;
         let difference = factors.difference * ((value - coarser) / value);
         if self == Self::Area {
             return Some(difference.hypot(places).hypot(adhesion));
@@ -163,33 +153,20 @@ impl Quantity {
         Some(difference.hypot(factors.edge * edge))
     }
 
-    /// The factors on a plane, or on a line.
-    fn factors_on(self, line: bool) -> Factors {
-        let [difference, edge, waves, order, expected] = match (self, line) {
-            (Self::Area, false) => [0.25, 0.0, 0.6, 2.0, 0.3],
-            (Self::Area, true) => [0.5, 0.0, 5.0, 2.0, 0.6],
-            (Self::Gap | Self::Approach, false) => [0.15, 0.001, 0.4, 3.0, 0.05],
-            (Self::Gap | Self::Approach, true) => [1.0 / 3.0, 0.02, 0.4, 3.0, 0.05],
-            (Self::Pressure, false) => [0.15, 0.001, 1.0, 3.0, 0.1],
-            (Self::Pressure, true) => [1.0 / 3.0, 0.02, 1.0, 3.0, 0.1],
-            (Self::Work | Self::Tension, _) => [f64::INFINITY; 5],
-        };
-        Factors { difference, edge, waves, order, expected }
-    }
-
     /// The relative error by the number of nodes in the shortest wave alone.
     fn by_waves(self, nodes_per_wave: f64, line: bool) -> f64 {
-        let Factors { waves, order, .. } = self.factors_on(line);
-        waves * nodes_per_wave.powf(-order)
+        Factors::of(self, line)
+            .map_or(f64::INFINITY, |Factors { waves, order, .. }| waves * nodes_per_wave.powf(-order))
     }
 
     /// The estimate to be expected with so many nodes in the shortest wave, by the estimates of rough surfaces: with
     /// an adhesion in the limit of no range, by their median.
     fn expected(self, nodes_per_wave: f64, adhesion: f64, line: bool) -> f64 {
-        let without = GridError::COVER * self.factors_on(line).expected / nodes_per_wave.powi(2);
+        let Some(factors) = Factors::of(self, line) else { return f64::INFINITY };
+        let without = GridError::COVER * factors.expected / nodes_per_wave.powi(2);
         // the range over the gap that surfaces without adhesion have a node away from the edge
         let zone = ((13.0 * adhesion).sqrt() * nodes_per_wave).min(1.0);
-        let with = if self == Self::Area { 0.7 } else { 0.3 } / nodes_per_wave;
+        let with = factors.expected_with_range / nodes_per_wave;
         without + zone * (with - without)
     }
 }
@@ -198,13 +175,13 @@ impl Quantity {
 fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> [f64; 2] {
     let (edges, nodes) = (area.edges as f64, area.contact_nodes as f64);
     let beyond = (area.contact_fraction / area.corrected_contact_fraction - 1.0).abs();
-    let adhesion = 0.1 * mu_rho * mu_rho.sqrt() * beyond;
+    let adhesion = EDGE.adhesion * mu_rho * mu_rho.sqrt() * beyond;
     if area.edges == 0 {
         return [0.0, adhesion];
     }
     let [contact, apart] = [nodes, nodes / area.contact_fraction - nodes].map(|nodes| edges / nodes.max(1.0));
-    let alike = (0.1 * contact * (contact + 2.0 * apart)).hypot(4.0 / nodes_per_wave.powi(2));
-    [(0.03 * contact / area.places.sqrt()).hypot(alike / area.places), adhesion]
+    let alike = (EDGE.alike * contact * (contact + 2.0 * apart)).hypot(EDGE.waves / nodes_per_wave.powi(2));
+    [(EDGE.scatter * contact / area.places.sqrt()).hypot(alike / area.places), adhesion]
 }
 
 impl ContactStiffness {
@@ -250,9 +227,6 @@ const SOLVED: f64 = 3e-3;
 fn resolves_adhesion(mu_rho: f64, finer: f64) -> bool {
     mu_rho <= Report::RESOLVED_MU_RHO * finer.sqrt()
 }
-
-/// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
-const FINE: f64 = 8.0;
 
 /// How far a coarser grid may be from half the nodes along a side, as for an odd number.
 const HALVED: f64 = 0.02;
@@ -360,7 +334,7 @@ impl GridError {
             coarser = coarser.or(Some(level));
         }
         let order = observed_order(&values);
-        let fine = nodes_per_wave >= 2.0 * FINE;
+        let fine = nodes_per_wave >= 4.0 * Self::LEAST_NODES_PER_WAVE;
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
         let waves = quantity.by_waves(nodes_per_wave, line);
         if let Some(size) = quantity.by_edge(finest).filter(|_| resolves(1.0)) {

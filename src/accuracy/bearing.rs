@@ -2,15 +2,11 @@
 
 use std::f64::consts::PI;
 
+use super::fitted::PULL_OFF;
 use crate::contact::Clusters;
 use crate::pull_off::FoundPullOff;
 use crate::real::Real;
 use crate::surface::Surface;
-
-/// The least number of nodes that bear the pull-off, in a contact, and the least radius of a contact by the theory of Johnson,
-/// Kendall and Roberts, in spacings.
-pub(super) const LEAST_NODES: f64 = 10.0;
-const LEAST_RADIUS: f64 = 2.0;
 
 impl<T: Real> FoundPullOff<T> {
     /// The share of a periodic cell in contact, by the adhesive energy.
@@ -62,7 +58,7 @@ impl<T: Real> FoundPullOff<T> {
     /// The number of nodes of a contact, and how many times as many it needs along the sides, if they are too few.
     pub(super) fn few_nodes(&self, surface: &Surface) -> Option<(f64, f64)> {
         let nodes = self.bearing_nodes();
-        let finer = (LEAST_NODES / nodes).sqrt().max(LEAST_RADIUS / self.radius_by_jkr(surface));
+        let finer = (PULL_OFF.nodes / nodes).sqrt().max(PULL_OFF.radius / self.radius_by_jkr(surface));
         (finer > 1.0).then_some((nodes, finer))
     }
 }

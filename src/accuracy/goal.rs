@@ -31,6 +31,12 @@ const SHARE: f64 = 0.05;
 /// The least nodes along a side of a coarser grid.
 pub(super) const COARSEST: usize = 16;
 
+/// The least nodes along a side of the grids with which a search for a pull-off or for the grid of a loop begins.
+pub(super) const FIRST: usize = 32;
+
+/// The most doublings of a grid.
+pub(super) const MOST_DOUBLINGS: i32 = 40;
+
 /// The memory that a solve may take by default, in bytes: 4 GiB.
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
 
@@ -247,7 +253,7 @@ impl Accuracy {
                 && nodes >= least
                 && self.of.expected(nodes, adhesion, line) <= smaller * self.target
         };
-        (0..40).find(enough).unwrap_or(40)
+        (0..MOST_DOUBLINGS).find(enough).unwrap_or(MOST_DOUBLINGS)
     }
 
     /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. The body has `operators` on each grid.

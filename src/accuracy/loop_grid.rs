@@ -3,7 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::goal::{COARSEST, DOUBT, NUMBERS, is_refinable, on_coarse, on_twice};
+use super::fitted::LOOP;
+use super::goal::{COARSEST, DOUBT, FIRST, MOST_DOUBLINGS, NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, LoopLimit, Quantity};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
@@ -14,23 +15,12 @@ use crate::path::PathEnd;
 use crate::real::Real;
 use crate::surface::Surface;
 
-/// The share of the error of a limit that is left on a grid of twice as many nodes along the sides. It comes to a half where
-/// contacts have many nodes, and is nearer to one where they have few; the share of the places that touch falls as that.
-const LEFT: f64 = 0.7;
-
-/// The least number of nodes along the sides of the grids with which the search begins, but for grids of half and of a quarter
-/// of the nodes of the surface.
-const FIRST: usize = 32;
-
 /// The numbers of 8 bytes that a path takes for each node, besides those of a solve: its gaps, and the softest mode.
 const KEPT: f64 = 24.0;
 
-/// The most doublings of a grid.
-const MOST: i32 = 40;
-
 /// The relative error that is left of errors of the grid and of its jumps on a grid that is so many times doubled.
 fn left([of_grid, of_jumps]: [f64; 2], finer: i32) -> f64 {
-    (of_grid * LEFT.powi(finer)).hypot(of_jumps)
+    (of_grid * LOOP.left.powi(finer)).hypot(of_jumps)
 }
 
 /// The grid on which a loop of loads is likely to have an accuracy; [`Accuracy::loop_grid`] has an example.
@@ -208,7 +198,9 @@ impl Accuracy {
             return Err(Error::Unsuited { what: "accuracy of a loop", reason });
         }
         let reached = |finer: i32| left(errors, 1 + finer);
-        let needed = |smaller: f64| (0..MOST).find(|&finer| reached(finer) <= smaller * self.target).unwrap_or(MOST);
+        let needed = |smaller: f64| {
+            (0..MOST_DOUBLINGS).find(|&finer| reached(finer) <= smaller * self.target).unwrap_or(MOST_DOUBLINGS)
+        };
         let finer = |count: i32| (0..count).fold(shape, |shape, _| twice(shape));
         let least = needed(DOUBT);
         if least == 0 || bytes(finer(least)) <= self.memory {

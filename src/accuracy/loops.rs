@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Quantity;
+use super::fitted::LOOP;
 use super::goal::{COARSEST, on_coarse};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::error::Result;
@@ -10,18 +11,6 @@ use crate::nested::coarsened;
 use crate::path::PathEnd;
 use crate::real::Real;
 use crate::surface::Surface;
-
-/// The shares of the difference of two grids by which the limits of work and tension are beyond the finer one, where surfaces
-/// touch once. The order of the work is 0.6 to 1 on bodies with few nodes in contact, and the order of the tension is 1.
-const BEYOND: [f64; 2] = [1.35, 1.0];
-
-/// The same share where surfaces touch at several places one after the other. Which places touch differs from grid to grid,
-/// too, and half of the difference has the least errors there.
-const BEYOND_PLACES: f64 = 0.5;
-
-/// The share of a limit that these places take in its error, on a grid of at most this number of nodes along the sides.
-const SCATTER: f64 = 0.24;
-const SCATTERED: f64 = 128.0;
 
 /// The standard errors of the work, in the error of its limit.
 const STANDARD: f64 = 2.0;
@@ -98,10 +87,10 @@ impl LoopLimit {
     /// The limits from the ends of one path on a grid of this shape, and on one of half as many nodes along the sides.
     pub fn of(shape: (usize, usize), fine: &PathEnd, coarse: &PathEnd) -> Self {
         let sides = [shape.0, shape.1].into_iter().filter(|&nodes| nodes > 1);
-        let finer = SCATTERED / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
+        let finer = LOOP.nodes / (shape.0 as f64 * shape.1 as f64).powf(1.0 / sides.count().max(1) as f64);
         let is_scattered = fine.touches.max(coarse.touches) > 1;
-        let [work, tension] =
-            BEYOND.map(|one| if is_scattered { (BEYOND_PLACES, SCATTER * finer.sqrt().min(1.0)) } else { (one, 0.0) });
+        let of_places = (LOOP.beyond_places, LOOP.scatter * finer.sqrt().min(1.0));
+        let [work, tension] = LOOP.beyond.map(|one| if is_scattered { of_places } else { (one, 0.0) });
         let tensions = [fine.greatest_tension, coarse.greatest_tension];
         Self {
             work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error], work),

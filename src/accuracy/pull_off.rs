@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::bearing::LEAST_NODES;
-use super::goal::{NUMBERS, is_refinable, on_coarse, on_twice};
+use super::fitted::PULL_OFF;
+use super::goal::{FIRST, NUMBERS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, GridError, NoEstimate, adhesion, observed_order};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
@@ -28,32 +28,8 @@ once! {
     ) -> Result<AccuratePullOff<T>> = Accuracy::refine_pull_off;
 }
 
-/// The factors of the process zone and of the difference to the grid of half as many nodes, in the error, and the factor of
-/// the adhesion by which the error is larger.
-const FACTORS: [f64; 2] = [1.5; 2];
-const WITH_ADHESION: f64 = 10.0;
-
 /// The width of the bracket of a search, as a share of the accuracy.
 const BRACKET: f64 = 0.2;
-
-/// The contact fraction by the adhesive energy, above which a periodic cell is closed: the grid decides when it opens.
-const CLOSED: f64 = 0.75;
-
-/// The contact fraction by the adhesive energy, above which the error is not told: on finer grids the surfaces may be closed.
-const NEARLY_CLOSED: f64 = 0.4;
-
-/// The adhesion of a rough surface above which two grids tell no error: of 13 scenes with more adhesion the pull-off was
-/// within it in 6. Surfaces of fewer waves along a side peel alike on all grids.
-const STRONG: f64 = 0.03;
-const FEW_WAVES: f64 = 3.5;
-
-/// The growth of the pull-off from one grid to the next, above which the two tell no error.
-const GROWTH: f64 = 1.15;
-
-/// The nodes along a side of the coarsest grid that tells where the pull-off is expected, and the change of the pull-off to a
-/// grid of twice as many nodes, where a single grid is known.
-const COARSEST: usize = 32;
-const UNKNOWN: f64 = 0.85;
 
 /// The pull-off on the finest of some grids, and the estimated error of its limit.
 #[non_exhaustive]
@@ -97,7 +73,7 @@ impl<T: Real> FoundPullOff<T> {
         let report = &self.solution.report;
         let (tension, by_energy) = (-report.mean_pressure, report.adhesive_contact_fraction);
         let area = ContactArea::of_solution(&self.solution)?.jkr_contact_fraction;
-        let is_closed = self.closed_share().is_some_and(|share| share > CLOSED);
+        let is_closed = self.closed_share().is_some_and(|share| share > PULL_OFF.closed);
         let share = area.zip(by_energy).filter(|_| !is_closed).map(|(area, by_energy)| area / by_energy);
         Ok(share.filter(|share| tension > 0.0 && share.is_finite()).map(|share| share * tension))
     }
@@ -177,7 +153,7 @@ impl Accuracy {
         let mut searches = Searches { solver, operators, observe, search, tensions: Vec::new() };
         let mut levels = Vec::new();
         if hints.takes_range_of_grid() {
-            levels = searches.on_coarser_grids(surface, law, self.nested.coarsest.max(COARSEST))?;
+            levels = searches.on_coarser_grids(surface, law, self.nested.coarsest.max(FIRST))?;
         }
         let (mut surface, mut law) = (surface.clone(), law.clone());
         let mut refinable = is_refinable(&surface, &*law);
@@ -257,10 +233,10 @@ impl<T: Real> Searches<'_, '_, T> {
                 continue;
             };
             // closed surfaces hold roughly where they do not hold
-            if found.closed_share().is_none_or(|share| share <= NEARLY_CLOSED) {
+            if found.closed_share().is_none_or(|share| share <= PULL_OFF.nearly_closed) {
                 self.tensions.push(-found.solution.report.mean_pressure);
             }
-            last = level.filter(|_| 4.0 * found.bearing_nodes() >= LEAST_NODES);
+            last = level.filter(|_| 4.0 * found.bearing_nodes() >= PULL_OFF.nodes);
         }
         Ok(last.into_iter().collect())
     }
@@ -278,7 +254,7 @@ fn too_few(surface: &Surface, nodes: f64, finer: f64, bytes: impl Fn(i32) -> f64
 fn expected_on_finer(tensions: &[f64], tolerance: f64) -> Option<[f64; 2]> {
     let (fine, change) = match *tensions {
         [.., coarse, fine] => (fine, (fine / coarse).clamp(0.5, 2.0)),
-        [fine] => (fine, UNKNOWN),
+        [fine] => (fine, PULL_OFF.change),
         [] => return None,
     };
     let [least, most] = [change.min(change.sqrt()), change.max(change.sqrt())].map(|change| change * fine);
@@ -306,7 +282,7 @@ fn of_many_waves<T: Real>(surface: &Surface, found: &FoundPullOff<T>, nodes_per_
     } else {
         lx.min(ly)
     };
-    let few = side < FEW_WAVES * nodes_per_wave * surface.grid().largest_spacing();
+    let few = side < PULL_OFF.few_waves * nodes_per_wave * surface.grid().largest_spacing();
     if few || report.approach.is_some() {
         return 0.0;
     }
@@ -326,10 +302,10 @@ fn error<T: Real>(
     if !found.reached {
         return Err(NoEstimate::Unreached);
     }
-    if let Some(share) = found.closed_share().filter(|share| *share > NEARLY_CLOSED) {
+    if let Some(share) = found.closed_share().filter(|share| *share > PULL_OFF.nearly_closed) {
         return Err(NoEstimate::Closed(share));
     }
-    if adhesion > STRONG {
+    if adhesion > PULL_OFF.strong {
         return Err(NoEstimate::Strong(adhesion));
     }
     if found.solution.report.reaches_edge {
@@ -343,11 +319,11 @@ fn error<T: Real>(
     else {
         return Err(NoEstimate::OneGrid);
     };
-    if limit > GROWTH * coarse {
+    if limit > PULL_OFF.growth * coarse {
         return Err(NoEstimate::Growth(limit / coarse));
     }
     let bracket = found.lost.map_or(0.0, |lost| lost - tension);
-    let [zone, difference] = FACTORS;
-    let of_grid = (zone * (tension - of_zone)).hypot(difference * (limit - coarse)) * (1.0 + WITH_ADHESION * adhesion);
+    let (zone, difference) = (PULL_OFF.zone * (tension - of_zone), PULL_OFF.difference * (limit - coarse));
+    let of_grid = zone.hypot(difference) * (1.0 + PULL_OFF.adhesion * adhesion);
     Ok(GridError { relative: (of_grid + bracket) / limit, order: observed_order(&limits), rough: false })
 }

@@ -1,5 +1,6 @@
 use ndarray::{Axis, Slice};
 
+use super::fitted::INTERPOLATION;
 use crate::degrees::PARTLY;
 use crate::error::Result;
 use crate::field::ordered;
@@ -8,12 +9,6 @@ use crate::nested::Level;
 use crate::solver::Status;
 use crate::surface::{Surface, mirror, refine};
 use crate::vector::range;
-
-/// The ratio of the contact areas on the given grid and on one of twice as many nodes, beyond which the heights in between
-/// decide, and what it may have more, over the root of the nodes in contact. White noise has a ratio of 1.27 with 268
-/// of them and 1.67 with 37, other rough surfaces at most 1.1, and plateaus with flanks of eight nodes 1.46 with 137.
-const DECIDED: f64 = 1.35;
-const SCATTER: f64 = 5.0;
 
 /// The surface on twice as many nodes along its sides, by Fourier interpolation; unless periodic, mirrored.
 pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
@@ -40,7 +35,7 @@ pub(super) fn overshoots(fine: &Surface, surface: &Surface) -> bool {
 /// Whether the contact on a refined grid is of the interpolation and not of the given surface.
 pub(super) fn is_of_interpolation(fine: &Level, given: &Level) -> bool {
     let ratio = given.area.corrected_contact_fraction / fine.area.corrected_contact_fraction;
-    let most = DECIDED.max(1.0 + SCATTER / (given.area.contact_nodes as f64).sqrt());
+    let most = INTERPOLATION.ratio.max(1.0 + INTERPOLATION.scatter / (given.area.contact_nodes as f64).sqrt());
     fine.status == Status::Converged && ratio > most
 }
 

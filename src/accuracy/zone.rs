@@ -1,13 +1,8 @@
 //! The error of the grid with a law that has the range of the grid: by the process zone at the edge of the contact.
 
+use super::fitted::{Factors, ZONE};
 use super::{GridError, Quantity, at_edge, is_coarser, observed_order};
 use crate::nested::Level;
-
-/// The factor by which an estimate is larger where the area changes from grid to grid by more than half the zone.
-const APART: f64 = 4.5;
-
-/// How much larger the share of the zone is in the error of the area where adhesion carries all of the contact pressure.
-const STRONG: f64 = 0.8;
 
 /// A quantity on a grid: as it is reported, less the process zone, and the zone.
 struct Told {
@@ -34,39 +29,14 @@ impl Quantity {
         Some(told).filter(|told| told.limit.is_finite())
     }
 
-    /// The factors of the zone and of the difference to the coarser grid, and the factor of the zone without a coarser
-    /// grid.
-    fn factors(self) -> [f64; 3] {
-        match self {
-            Self::Area => [0.7, 1.4, 1.7],
-            Self::Gap => [4.0, 4.0, 7.5],
-            Self::Approach => [2.5, 1.5, 3.75],
-            _ => [6.0, 3.0, 15.0],
-        }
-    }
-
-    /// The factor of the difference where there is next to no adhesion.
-    fn share_of_difference(self) -> f64 {
-        match self {
-            Self::Area => 0.25 * GridError::COVER,
-            // of first order where a body ends
-            Self::Approach => 1.5,
-            _ => 0.15 * GridError::COVER,
-        }
-    }
-
     /// The relative error without adhesion, besides the share of the difference to the coarser grid.
-    fn without_adhesion(self, finest: &Level, coarser: Option<&Level>, nodes_per_wave: f64) -> f64 {
+    fn without_adhesion(self, finest: &Level, coarser: Option<&Level>, nodes_per_wave: f64) -> Option<f64> {
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
         let [places, _] = at_edge(&finest.area, nodes_per_wave, 0.0);
         let waves = if coarser.is_none() || finest.area.edges == 0 { self.by_waves(nodes_per_wave, line) } else { 0.0 };
-        let of_places = match self {
-            Self::Area if coarser.is_none() => 2.0,
-            Self::Area => 1.0,
-            Self::Approach => 1.2,
-            _ => 0.5,
-        };
-        GridError::COVER * (of_places * places).hypot(waves)
+        let [with_coarser, alone] = Factors::of(self, line)?.places;
+        let of_places = if coarser.is_some() { with_coarser } else { alone };
+        Some(GridError::COVER * (of_places * places).hypot(waves))
     }
 }
 
@@ -90,23 +60,23 @@ pub(super) fn error(
         limits.push(coarse.limit);
     }
     let change = before.and_then(|level| Some((Quantity::Area.told(level)?.limit - area.limit).abs()));
-    let [elastic, of_area] = [quantity, Quantity::Area].map(|of| of.without_adhesion(finest, before, nodes_per_wave));
-    let of_area = of_area * area.limit;
+    let without_adhesion = |of: Quantity| of.without_adhesion(finest, before, nodes_per_wave);
+    let (elastic, of_area) = (without_adhesion(quantity)?, without_adhesion(Quantity::Area)? * area.limit);
     let adhesive = area.zone / (area.zone + of_area).max(f64::MIN_POSITIVE);
     // around holes the zone is narrower
     let closed = if quantity == Quantity::Area { 1.0 + area.limit.powi(4) } else { 1.0 };
-    let [of_zone, of_difference, alone] = quantity.factors();
+    let Factors { zone: [of_zone, of_difference, alone], weak, .. } = Factors::of(quantity, false)?;
     // where adhesion carries more than the load
     let pull = (1.0 - finest.mean_pressure / finest.mean_contact_pressure).clamp(0.0, 1.0);
-    let strong = if quantity == Quantity::Area { 1.0 + STRONG * pull * pull } else { 1.0 };
+    let strong = if quantity == Quantity::Area { 1.0 + ZONE.strong * pull * pull } else { 1.0 };
     let [of_zone, alone] = [strong * of_zone, alone].map(|factor| closed * factor);
-    let of_difference = adhesive * of_difference + (1.0 - adhesive) * quantity.share_of_difference();
+    let of_difference = adhesive * of_difference + (1.0 - adhesive) * (weak * GridError::COVER);
     let error = match limits[..] {
         [limit, coarse, ..] => (of_zone * told.zone).hypot(of_difference * (limit - coarse)),
         _ => alone * told.zone,
     };
     let apart = change.is_some_and(|change| change > 0.5 * area.zone + of_area);
-    let relative = (if apart { APART * error } else { error } / told.value.abs()).hypot(elastic);
+    let relative = (if apart { ZONE.apart * error } else { error } / told.value.abs()).hypot(elastic);
     let rough = apart || change.is_none();
     let is_told = relative.is_finite() && relative > 0.0;
     is_told.then(|| GridError { relative, order: observed_order(&limits), rough })

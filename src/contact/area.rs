@@ -20,19 +20,20 @@ once! {
 /// The excess area of a contact map per edge, in cells: (π − 1 + ln 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
-/// The width of the process zone at the edge of a contact, by its adhesive energy, in nodes for each side of a cell.
-const ZONE: f64 = 0.16;
+/// The process zone at the edge of a contact, by a law that has the range of the grid; fitted to the scenes of `--example jkr`.
+struct Zone {
+    /// The width by the adhesive energy, in nodes for each side of a cell.
+    width: f64,
+    /// The energy of the nodes out of contact, in nodes for each side of a cell, from which on the edge is adhesive.
+    adhesive: f64,
+    /// The most of the area by energy that the zone takes: contacts of a few nodes have no other inside.
+    most: f64,
+    /// The gap beyond an edge from which it is a step of the surface: in ranges, since a crack opens by less, and in contact
+    /// pressure times spacing over E*, since a body without adhesion opens by less.
+    step: [f64; 2],
+}
 
-/// The energy of the nodes out of contact, in nodes for each side of a cell, from which on the edge is adhesive.
-const ADHESIVE: f64 = 0.3;
-
-/// The most of the area by energy that the process zone takes: contacts of a few nodes have no other inside.
-const MOST: f64 = 0.5;
-
-/// The gap beyond an edge from which it is a step of the surface: in ranges, since a crack opens by less, and in contact
-/// pressure times spacing over E*, since a body without adhesion opens by less.
-const STEP: f64 = 4.0;
-const LIFT: f64 = 2.0;
+const ZONE: Zone = Zone { width: 0.16, adhesive: 0.3, most: 0.5, step: [4.0, 2.0] };
 
 /// The contact area, and its edge; [`ContactStatistics`] says how the area of a solution is corrected.
 ///
@@ -132,8 +133,8 @@ impl ContactArea {
         let edge = self.perimeter * grid.largest_spacing() / (cell * facing);
         let outside = (by_energy - self.contact_fraction).max(0.0);
         let smooth = (1.0 - steps) * edge;
-        let adhesive = if outside > 0.0 { (outside / (ADHESIVE * smooth)).min(1.0) } else { 0.0 };
-        let zone = |share: f64| (share * ZONE * edge).min(MOST * by_energy);
+        let adhesive = if outside > 0.0 { (outside / (ZONE.adhesive * smooth)).min(1.0) } else { 0.0 };
+        let zone = |share: f64| (share * ZONE.width * edge).min(ZONE.most * by_energy);
         let elastic = (1.0 - adhesive) * (self.contact_fraction - self.corrected_contact_fraction);
         let within = steps.powi(3) * (within as f64 / facing - by_energy);
         let inside = by_energy - (1.0 - steps) * (zone(adhesive) + elastic) + within;
@@ -194,6 +195,7 @@ fn reach<T: Real>(outline: &Outline<'_, T>, range: f64) -> (f64, usize) {
         false if at > 0 => Some(at - 1),
         _ => (*periodic).then_some(if ahead { 0 } else { n - 1 }),
     };
+    let [ranges, lifts] = ZONE.step;
     let [mut nodes, mut edges, mut steps] = [0; 3];
     for (node, _) in gap.indexed_iter().filter(|(_, gap)| gap.widen() < range) {
         nodes += 1;
@@ -211,9 +213,9 @@ fn reach<T: Real>(outline: &Outline<'_, T>, range: f64) -> (f64, usize) {
             }
             let behind = next(along_x, !ahead).unwrap_or(node);
             let pressure = contact_pressure[node].max(contact_pressure[behind]).widen();
-            let lift = LIFT * pressure * if along_x { dx } else { dy } / modulus;
+            let lift = lifts * pressure * if along_x { dx } else { dy } / modulus;
             edges += 1;
-            steps += usize::from(opening > STEP * range + lift);
+            steps += usize::from(opening > ranges * range + lift);
         }
     }
     (if edges > 0 { steps as f64 / edges as f64 } else { 0.0 }, nodes)

@@ -12,17 +12,21 @@ use crate::real::Real;
 /// κ: the gap of the next free node per pressure of the last node in contact, over Δ/E*.
 const SOFTNESS: f64 = 2.0 * E / PI;
 
-/// How far the edge is inside the contour, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, with the
-/// stiffness k over E*/Δ of waves: |q|/2 in a periodic cell; for Love's kernel the inverse of the sum of 4
-/// sin(q'/2)/(q'|q'|) over all q' = q + 2πm.
-const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
-const SHIFT_FREE: f64 = 0.174_653_2;
+/// The edge beside the contour, the line on which the gap between two nodes vanishes.
+#[derive(Clone, Copy)]
+struct Contour {
+    /// How far the edge is inside, in spacings: 1/4 − (1/4π) ∫₀^π ln(k(q) / sin(q/2)) / sin²(q/2) dq, with the stiffness k
+    /// over E*/Δ of waves: |q|/2 in a periodic cell; for Love's kernel the inverse of the sum of 4 sin(q'/2)/(q'|q'|) over
+    /// all q' = q + 2πm.
+    shift: f64,
+    /// How much less an edge along the diagonals lies inside, by plane waves and Hertz contacts.
+    slant: f64,
+    /// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.
+    turn: f64,
+}
 
-/// How much less an edge along the diagonals lies inside the contour, by plane waves and Hertz contacts.
-const SLANT: f64 = 0.0147;
-
-/// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.
-const TURN: f64 = 0.78;
+const PERIODIC: Contour = Contour { shift: 0.190_009_285_9, slant: 0.0147, turn: 0.78 };
+const FREE: Contour = Contour { shift: 0.174_653_2, ..PERIODIC };
 
 /// A cell in the fixed-point numbers that are added up: the same sum in any order.
 const CELL: f64 = (1_u64 << 30) as f64;
@@ -47,8 +51,7 @@ pub struct Edge {
 struct Rule {
     /// gap per pressure along x and y
     compliances: [f64; 2],
-    /// in spacings
-    shift: f64,
+    contour: Contour,
 }
 
 #[derive(Clone, Copy)]
@@ -82,7 +85,7 @@ impl<T: Real> Outline<'_, T> {
         let (dx, dy) = grid.spacing();
         let step = Rule {
             compliances: [dx, dy].map(|spacing| SOFTNESS * spacing / modulus),
-            shift: if *periodic { SHIFT_PERIODIC } else { SHIFT_FREE },
+            contour: if *periodic { PERIODIC } else { FREE },
         };
         // whether the four nodes of a cell are not all of one kind
         let mut mixed = Vec::with_capacity(columns);
@@ -137,7 +140,7 @@ impl Rule {
         }
         let Cut { place, told, kink } = self.cut(one, other, 0);
         places.add(told);
-        0.5 - (place - self.shift * kink)
+        0.5 - (place - self.contour.shift * kink)
     }
 
     /// The excess within the rectangle of four nodes, not all of one kind; the places are on the sides of the first.
@@ -170,13 +173,13 @@ impl Rule {
     /// The area around one node in contact, by the cuts of its two sides.
     fn contact_corner(&self, cuts: [Cut; 2]) -> f64 {
         let [p, q] = cuts.map(|cut| cut.place);
-        0.5 * p * q - kink(cuts) * (self.strip(p, q) - 0.25 * TURN)
+        0.5 * p * q - kink(cuts) * (self.strip(p, q) - 0.25 * self.contour.turn)
     }
 
     /// The area around one free node, by the cuts of its two sides.
     fn free_corner(&self, cuts: [Cut; 2]) -> f64 {
         let [p, q] = cuts.map(|cut| 1.0 - cut.place);
-        0.5 * p * q + kink(cuts) * (self.strip(p, q) + 0.25 * TURN)
+        0.5 * p * q + kink(cuts) * (self.strip(p, q) + 0.25 * self.contour.turn)
     }
 
     /// The area next to two nodes in contact, by the cuts of the two sides that leave them.
@@ -189,7 +192,7 @@ impl Rule {
     fn strip(&self, a: f64, b: f64) -> f64 {
         let length = (a * a + b * b).sqrt();
         let sine = if length > 0.0 { (2.0 * a * b).abs() / (length * length) } else { 0.0 };
-        (self.shift - SLANT * sine * sine * sine) * length
+        (self.contour.shift - self.contour.slant * sine * sine * sine) * length
     }
 }
 

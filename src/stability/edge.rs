@@ -9,9 +9,6 @@ use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::Solution;
 
-/// The local stiffness of the grid, over E*/Δ, at an edge parallel to an axis.
-const STIFF: f64 = 1.73;
-
 /// The weights of the sum over the edge, of the root of the sum of squares, and of the release of nodes in contact.
 struct Factors {
     sum: f64,
@@ -21,7 +18,9 @@ struct Factors {
 
 const STIFFNESS: Factors = Factors { sum: 1.2, scatter: 0.6, excess: 0.063 };
 const GAP: Factors = Factors { sum: 1.59, scatter: 0.8, excess: 0.0 };
-const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
+
+/// The sum has the local stiffness of the grid, over E*/Δ, at an edge parallel to an axis.
+const ON_LINES: Factors = Factors { sum: 1.73, scatter: 0.5, excess: 0.0 };
 
 /// The estimated error that the grid leaves in a contact stiffness, and in the mean gap of the same solution.
 ///
@@ -85,8 +84,8 @@ impl EdgeError {
                 let t = if apart { others } else { own } / step;
                 passed += t;
                 wave += step * (0.5 * t * (1.0 - t) - 1.0 / 12.0);
-                let soft = spacing / modulus;
-                release += rate * rate * if apart { (soft * STIFF * STIFF).recip() } else { soft };
+                let (soft, stiff) = (spacing / modulus, ON_LINES.sum);
+                release += rate * rate * if apart { (soft * stiff * stiff).recip() } else { soft };
                 sides += 1.0;
             }
             if sides > 0.0 {
