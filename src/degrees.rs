@@ -12,6 +12,19 @@ pub(crate) const LITTLE: f64 = 1e-2;
 /// next state may leave, of the change that a mode makes up.
 pub(crate) const PARTLY: f64 = 0.1;
 
+/// A share that is about a half: of the nodes of a grid, of a gap that a step may take, of a load that is not borne, of the
+/// change before in the error of a prediction, of a tolerance.
+pub(crate) const HALF: f64 = 0.5;
+
+/// A share that is most, and not all: of a jump that half a step has, of a step that the next one takes along.
+pub(crate) const MOSTLY: f64 = 0.7;
+
+/// A factor that leaves room: over the floor of rounding, a tolerance, the rise of concave functions, the last step.
+pub(crate) const TWICE: f64 = 2.0;
+
+/// A first step into the unknown, as a share of the way that is known.
+pub(crate) const FIRST_STEP: f64 = 1.0 / 16.0;
+
 /// A distance that is far: in ranges of adhesion, in steps, in stiffnesses of the shortest wave.
 pub(crate) const FAR: f64 = 10.0;
 
@@ -21,6 +34,9 @@ pub(crate) const ROUGHLY: f64 = 1e-3;
 
 /// The tolerance of a state that leads to another one: the edge of the adhesive zone has to be right to a node.
 pub(crate) const CLOSELY: f64 = 1e-4;
+
+/// The relative difference, far above rounding and far below anything measured, of numbers that are the same.
+pub(crate) const ALIKE: f64 = 1e-9;
 
 /// The roundings of a sum of products, of a difference of sums, and of a value that is compared, in units of ε.
 pub(crate) const ROUNDINGS: f64 = 8.0;

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::adhesion::{AdhesionLaw, Discretisation, Jkr, NoAdhesion, SharedLaw, Weakened, mu_rho};
 use crate::constraint::ContactConstraint;
+use crate::degrees::HALF;
 use crate::elastic::OnGrids;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -52,9 +53,6 @@ const WEAKER: [f64; 2] = [0.9, 0.5];
 /// The greatest [`Problem::mu_rho`] of a finest grid that coarser ones lead to on loading: it hardly resolves the
 /// adhesion. On a grid with 1.2, areas of contact are up to 17 % beyond the loading branch.
 const HARDLY_RESOLVED: f64 = 1.05;
-
-/// The relative load error at and above which a coarse solution is not used as a start.
-const CARRIED: f64 = 0.5;
 
 /// Nested grids: solutions on coarser grids, each the start on the next finer one.
 ///
@@ -328,7 +326,7 @@ impl Nested {
             }
             let (leads, whole) = weaker.map_or((solution, whole), |weaker| (weaker.solution, weaker.whole));
             // a coarse grid that does not carry its load says nothing of a finer one
-            if leads.report.load_error < CARRIED && leads.report.status != Status::Detached {
+            if leads.report.load_error < HALF && leads.report.status != Status::Detached {
                 coarser = Some(Deformed::new(&coarse, leads.gap, whole));
             }
         }

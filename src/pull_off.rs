@@ -3,15 +3,15 @@
 use std::ops::ControlFlow;
 
 use crate::constraint::{ContactConstraint, Wall};
-use crate::degrees::{LITTLE, PARTLY, ROUGHLY};
+use crate::degrees::{FIRST_STEP, HALF, LITTLE, PARTLY, ROUGHLY};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::{Real, once};
 use crate::search::MOST_SOLVES;
 use crate::setters::setters;
 use crate::solver::{
-    Begin, Branch, Criterion, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status,
-    check_wall, refuse_hardness, unload,
+    Begin, Branch, Criterion, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall,
+    refuse_hardness, unload,
 };
 
 mod bracket;
@@ -25,9 +25,6 @@ once! {
         start: Start<'a, T>, observe: Observer<'a>,
     ) -> Result<FoundPullOff<T>> = [within] PullOff::search;
 }
-
-/// The first tension, over the attraction of the surfaces under no load.
-const FIRST: f64 = 1.0 / 16.0;
 
 /// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
 ///
@@ -162,7 +159,7 @@ impl PullOff {
         if !released.is_settled() {
             return Ok(search.end(released, false));
         }
-        let first = FIRST * search.attraction(&released.solution.report)?;
+        let first = FIRST_STEP * search.attraction(&released.solution.report)?;
         search.bracket.borne.push(Held::of(&released.solution.report));
         search.narrow(released, first)
     }
@@ -267,7 +264,7 @@ impl<T: Real> Search<'_, T> {
         let stored = 0.0 - report.adhesive_energy;
         let node = hints.work_of_adhesion.widen() / self.problem.grid().nodes() as f64;
         let at_rest = PARTLY * stored / hints.range.widen();
-        let at_rest = if stored < STRONGEST * node || !at_rest.is_finite() { 0.0 } else { at_rest };
+        let at_rest = if stored < HALF * node || !at_rest.is_finite() { 0.0 } else { at_rest };
         let attraction = report.mean_contact_pressure.max(at_rest);
         if attraction > 0.0 {
             return Ok(attraction);

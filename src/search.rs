@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::constraint::ContactConstraint;
-use crate::degrees::ROUGHLY;
+use crate::degrees::{ROUGHLY, TWICE};
 use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::{Real, once};
@@ -24,9 +24,6 @@ once! {
         problem: &'a mut Problem<T>, fraction: f64, observe: Observer<'a>,
     ) -> Result<FoundContact<T>> = [within] ContactSearch::find;
 }
-
-/// The distance from the wanted contact, in units of the tolerance, from which on a state is solved roughly.
-const FAR: f64 = 2.0;
 
 /// The growth of the logarithm of the load above which a solve without adhesion starts anew.
 const LONG: f64 = 0.7;
@@ -234,7 +231,7 @@ impl<T: Real> ContactSearch<T> {
         let mut watch = |state: &Iteration| {
             let next = observe(state);
             let roughly = state.relative_error.max(state.load_error) <= ROUGHLY && !state.smoothed;
-            rough = roughly && of_solution && target.off(state.contact_nodes) > FAR && next.is_continue();
+            rough = roughly && of_solution && target.off(state.contact_nodes) > TWICE && next.is_continue();
             if rough { ControlFlow::Break(()) } else { next }
         };
         let solved = solver.run(problem.parts(), axis.control(x), begin, &mut watch)?;

@@ -18,8 +18,7 @@ pub(crate) const TILE: usize = 32;
 /// The memory below which no request is made before an allocation, in bytes: 64 MiB.
 pub(crate) const SMALL: f64 = 67_108_864.0;
 
-/// The least number of nodes of a band, and the largest number of bands of a grid.
-const BAND: usize = CHUNK * CHUNK;
+/// The largest number of bands of a grid; a band has a chunk of chunks at least.
 const BANDS: usize = 1024;
 
 /// The slab of a grid that this process holds, and the slabs of the others. A slab consists of whole bands, or is empty.
@@ -72,7 +71,7 @@ impl Slab {
         } else {
             let rows = |ny: usize| CHUNK >> ny.trailing_zeros().min(CHUNK.ilog2());
             let unit = TILE.max(rows(ny)).max(rows(width));
-            BAND.div_ceil(ny).max(nx.div_ceil(BANDS)).next_multiple_of(unit)
+            (CHUNK * CHUNK).div_ceil(ny).max(nx.div_ceil(BANDS)).next_multiple_of(unit)
         };
         let band = band.max(1);
         Self { shape, band, bands: nx.div_ceil(band), ranks }

@@ -48,7 +48,6 @@ pub(crate) use report::Solved;
 pub use report::{Iteration, Plastic, Report, Solution, Status};
 pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
-pub(crate) use tension::STRONGEST;
 pub(crate) use unload::unload;
 
 once! {

@@ -34,6 +34,9 @@ use hessian::Hessian;
 pub use stiffness::ContactStiffness;
 pub(crate) use watch::{Saddle, Watch};
 
+/// The most iterations of a search for a mode, or for the gap that opens least; some ten are usual.
+const MOST: usize = 500;
+
 once! {
     /// A test of stability.
     judge<'a, T>(

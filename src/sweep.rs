@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use ndarray::Array2;
 
 use crate::constraint::ContactConstraint;
+use crate::degrees::{HALF, TWICE};
 use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::{Real, once};
@@ -76,14 +77,8 @@ pub struct Sweep<T> {
     loads: bool,
 }
 
-/// The farthest extrapolation of the last step, in steps.
-pub(crate) const MOST_STEPS: f64 = 2.0;
-
 /// The ratio of two loads above which the second one starts anew.
 const FAR: f64 = 4.0;
-
-/// The error of an extrapolated gap, over the last change of the gap, above which the branch may have jumped.
-const FORETOLD: f64 = 0.5;
 
 impl<T> Default for Sweep<T> {
     fn default() -> Self {
@@ -251,7 +246,7 @@ fn ahead<T: Real>(
         return None;
     }
     let on = (&problem.flat, *problem.operator.grid());
-    Some(extrapolated([&before.1.gap, &last.1.gap], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
+    Some(extrapolated([&before.1.gap, &last.1.gap], steps.clamp(-TWICE, TWICE), (least, true), on))
 }
 
 /// Whether a load presses so much more than the load before that the last gap says little.
@@ -280,5 +275,5 @@ fn foretells<T: Real>(problem: &Problem<T>, foretold: &Array2<T>, [before, last]
         let square = |a: T, b: T| (a - b).widen().powi(2);
         problem.operator.grid().mean_of_both(gap.view(), last.1.gap.view(), square).sqrt()
     };
-    apart(foretold) < FORETOLD * apart(&before.1.gap)
+    apart(foretold) < HALF * apart(&before.1.gap)
 }

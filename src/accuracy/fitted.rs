@@ -147,13 +147,15 @@ pub(super) struct Loops {
     /// The share of a limit that these places take in its error, on a grid of at most this number of nodes along the sides.
     pub scatter: f64,
     pub nodes: f64,
+    /// The standard errors of the work, in the error of its limit.
+    pub standard: f64,
     /// The share of an error that is left on a grid of twice as many nodes along the sides. It comes to a half where
     /// contacts have many nodes, and is nearer to one where they have few; the share of the places falls as that.
     pub left: f64,
 }
 
 pub(super) const LOOP: Loops =
-    Loops { beyond: [1.35, 1.0], beyond_places: 0.5, scatter: 0.24, nodes: 128.0, left: 0.7 };
+    Loops { beyond: [1.35, 1.0], beyond_places: 0.5, scatter: 0.24, nodes: 128.0, standard: 2.0, left: 0.7 };
 
 /// Heights between the given nodes that decide the contact: white noise has a ratio of areas on the given grid and on one
 /// of twice as many nodes of 1.27 with 268 nodes in contact and of 1.67 with 37, other rough surfaces of at most 1.1, and

@@ -12,9 +12,6 @@ use crate::path::PathEnd;
 use crate::real::Real;
 use crate::surface::Surface;
 
-/// The standard errors of the work, in the error of its limit.
-const STANDARD: f64 = 2.0;
-
 /// A number on a grid in the limit of no range, where it has a first-order error.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +29,7 @@ impl Limit {
     fn of([fine, coarse]: [f64; 2], [own, coarser]: [f64; 2], (beyond, scatter): (f64, f64)) -> Self {
         let difference = fine - coarse;
         let value = fine + beyond * difference;
-        let of_values = STANDARD * ((1.0 + beyond) * own).hypot(beyond * coarser);
+        let of_values = LOOP.standard * ((1.0 + beyond) * own).hypot(beyond * coarser);
         Self { value, error: difference.hypot(scatter * value).hypot(of_values) }
     }
 

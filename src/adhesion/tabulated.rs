@@ -14,8 +14,8 @@ pub use functions::{Functions, check_functions};
 use jump::Jump;
 use piece::Piece;
 
-/// The place up to which a table has one interval.
-const NEAREST: f64 = 1.0 / 256.0;
+/// The places up to which a table has one interval, and from which on the energy is constant.
+const ENDS: (f64, f64) = (1.0 / 256.0, 1_048_576.0);
 
 /// The bits of the mantissa that number the intervals of an octave: 128 of them.
 const BITS: u32 = 7;
@@ -58,7 +58,7 @@ impl Tabulated {
         if place >= self.end {
             return [self.far, 0.0, 0.0];
         }
-        let interval = if place < NEAREST { 0 } else { (key(place) - key(NEAREST) + 1).min(self.first.len() - 2) };
+        let interval = if place < ENDS.0 { 0 } else { (key(place) - key(ENDS.0) + 1).min(self.first.len() - 2) };
         let pieces = &self.pieces[self.first[interval] as usize..self.first[interval + 1] as usize];
         let after = if let [_] = pieces { 1 } else { pieces.partition_point(|piece| piece.start <= place).max(1) };
         let piece = &pieces[after - 1];

@@ -6,6 +6,7 @@ use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayViewMut1, Axis, Slice, Zip};
 
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
+use crate::degrees::HALF;
 use crate::elastic::{ElasticOperator, OnGrids};
 use crate::error::Result;
 use crate::grid::Grid;
@@ -14,17 +15,11 @@ use crate::real::Real;
 use crate::solver::{Begin, Observer, Solution, Solved, Solver, Start, Status};
 use crate::surface::Surface;
 
-/// The largest share of the window's nodes of a part that is worth a solve of its own.
-const SMALL: f64 = 0.5;
-
 /// The adhesive traction below which a node need not be in the part, as a share of w/ρ.
 const REACH: f64 = 1e-6;
 
 /// The margin about the contact: a share of its extent, and so many nodes at least.
 const MARGIN: (f64, usize) = (0.25, 8);
-
-/// The tolerance of the solution on a part of the window, as a share of that on the whole.
-const SHARE: f64 = 0.5;
 
 /// A rectangle of nodes about the contact on a free half-space's window, of the same compliance if nothing else
 /// presses.
@@ -35,7 +30,7 @@ struct Part {
 }
 
 impl Part {
-    /// The part about the contact, if it is small, in a gap on the window or a larger grid, by rows of a slab.
+    /// The part about the contact, if it has at most half of the window's nodes, in a gap on the window or a larger grid, by rows of a slab.
     fn of<T: Real>(window: (usize, usize), grid: &Grid, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
         let hints = law.hints();
         let least = T::lit(REACH) * hints.work_of_adhesion / hints.range;
@@ -62,7 +57,7 @@ impl Part {
         }
         let part = Self { x: widened(x, window.0), y: widened(y, window.1) };
         let nodes = (part.x.len() * part.y.len()) as f64;
-        (nodes <= SMALL * (window.0 * window.1) as f64).then_some(part)
+        (nodes <= HALF * (window.0 * window.1) as f64).then_some(part)
     }
 
     fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: &Grid, to: &Grid) -> Array2<T> {
@@ -173,7 +168,7 @@ pub(super) fn solve_part<T: Real>(
     let small = part.surface(surface)?;
     let mut problem = Problem::of(&small, operators.on(*small.grid())?, law.clone())?;
     let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
-    let tolerance = SHARE * solver.settings.tolerance_in::<T>();
+    let tolerance = HALF * solver.settings.tolerance_in::<T>();
     let start = Begin::At(Start::Near(part.cut(gap, &whole, small.grid())));
     let control = Part::control(control, surface, &small);
     let Solved { solution, .. } =

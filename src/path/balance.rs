@@ -16,8 +16,8 @@ const MANY: f64 = 20.0;
 /// The share of the expected growth of the tension in a step, below which it may have had a maximum there.
 const GROWN: f64 = 0.25;
 
-/// The largest growth of a step.
-const GROWTH: f64 = 2.0;
+/// The least and the largest ratio of two successive steps.
+const GROWTH: (f64, f64) = (0.5, 2.0);
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance {
@@ -97,7 +97,7 @@ impl Course {
             excess,
             drop,
             before: if touching { self.account.dissipated } else { f64::INFINITY },
-            growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
+            growth: if growth.is_nan() { GROWTH.1 } else { growth.clamp(GROWTH.0, GROWTH.1) },
         };
         let stays = self.bracket.is_some_and(|bracket| bracket.keeps(drop));
         let located = stays && balance.locates(product) && !balance.peaks;

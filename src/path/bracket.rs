@@ -2,14 +2,7 @@
 
 use super::balance::Balance;
 use super::quadrature::trapezoid;
-
-/// The share of the product of a step and the change of the load, to which the trapezoid rule is right where the load
-/// is a parabola.
-const SMOOTH: f64 = 1.0 / 6.0;
-
-/// The share of the energy that a jump would dissipate in a step, which it has to have in half of it too, and the other
-/// way round: of the energy under a corner of the load, where a node comes into contact, half at most is left.
-const PERSISTENT: f64 = 0.7;
+use crate::degrees::MOSTLY;
 
 /// The end of the shortest step that was taken back: what it jumped over, or bent too much in, is on the way there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,9 +18,10 @@ pub(super) struct Bracket {
 }
 
 impl Bracket {
-    /// Whether a step on the way jumps by as much as the one that was taken back.
+    /// Whether a step on the way jumps by as much as the one that was taken back: of the energy under a corner of the load,
+    /// where a node comes into contact, half at most is left.
     pub(super) fn keeps(&self, drop: f64) -> bool {
-        drop >= PERSISTENT * self.drop && self.drop >= PERSISTENT * drop
+        drop >= MOSTLY * self.drop && self.drop >= MOSTLY * drop
     }
 
     /// The length of the next step from a state on the way, with the balance of the step to it: half the way if a jump
@@ -36,7 +30,8 @@ impl Bracket {
         let left = self.end.0 - at;
         let product = left * (self.end.1 - slope);
         let drop = trapezoid((at, slope), self.end) - (self.potential - potential);
-        let is_smooth = drop.abs() <= balance.allowed.max(SMOOTH * product.abs());
+        // the trapezoid rule is right to a sixth where the load is a parabola
+        let is_smooth = drop.abs() <= balance.allowed.max(1.0 / 6.0 * product.abs());
         let locates = self.keeps(drop) && Balance { drop, ..balance }.locates(product);
         if is_smooth || locates { left.abs() } else { 0.5 * left.abs() }
     }

@@ -6,7 +6,7 @@ use super::bracket::Bracket;
 use super::figures::{Figures, Mode};
 use super::quadrature::trapezoid;
 use super::{Event, Jump, PathSettings};
-use crate::degrees::HARDLY;
+use crate::degrees::{FIRST_STEP, HARDLY};
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
@@ -151,7 +151,7 @@ impl Course {
         self.bracket = None;
         // nothing is known of the branch in that direction
         self.places = vec![here];
-        self.step = (self.length() / settings.steps as f64 / 16.0).max(self.smallest(settings));
+        self.step = (self.length() / settings.steps as f64 * FIRST_STEP).max(self.smallest(settings));
     }
 
     fn length(&self) -> f64 {

@@ -2,9 +2,9 @@
 
 use super::Path;
 use super::bench::Bench;
+use crate::degrees::TWICE;
 use crate::real::Real;
 use crate::solver::{Begin, Nearness, Start, extrapolated};
-use crate::sweep::MOST_STEPS;
 
 impl<T: Real> Path<T> {
     /// The start at `target`: the state that was found there, or a gap extrapolated from the last two; and whether surfaces
@@ -17,7 +17,7 @@ impl<T: Real> Path<T> {
         }
         let start = match &self.places[..] {
             [before, last] => {
-                let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
+                let steps = self.course.extrapolation(target).clamp(-TWICE, TWICE);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
                 let on = (&bench.problem.flat, *bench.problem.operator.grid());
                 let gap = extrapolated([&before.gap, &last.gap], steps, (bench.least(), false), on);

@@ -5,7 +5,7 @@ use std::slice::Chunks;
 
 use crate::degrees::HARDLY;
 use crate::elastic::{CoarseSpace, ElasticOperator};
-use crate::field::Field;
+use crate::field::{CHUNK, Field};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
@@ -21,8 +21,6 @@ const STIFFNESS: f64 = 2.5;
 /// The iterations before the first renewal of the contact map, which costs conjugacy, and the ratio of later intervals.
 const INTERVAL: f64 = 2.0;
 const LONGER: f64 = 1.4;
-
-const COLUMNS: usize = 1 << 10;
 
 /// The contact of a block of nodes in whole numbers, exact in any order: the number of nodes, the sum of their places
 /// along y, and both times the place along x.
@@ -89,9 +87,9 @@ impl Coarse {
     fn map<T: Real>(&mut self, field: &Field<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.grid.shape());
         let count = |nodes: &[T], from: usize, node: usize, counts: &mut [Count]| {
-            for first in (0..ny).step_by(COLUMNS) {
-                let columns = first..ny.min(first + COLUMNS);
-                let (mut touching, mut along) = ([0; COLUMNS], [0; COLUMNS]);
+            for first in (0..ny).step_by(CHUNK) {
+                let columns = first..ny.min(first + CHUNK);
+                let (mut touching, mut along) = ([0; CHUNK], [0; CHUNK]);
                 count_columns(nodes.chunks(ny), &columns, (&mut touching, &mut along), |k, value| {
                     touches(node + k, value)
                 });

@@ -2,14 +2,12 @@
 
 use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
 use crate::constraint::{ContactConstraint, Hardness, Springs, Wall};
+use crate::degrees::HALF;
 use crate::field::{CHUNK, Reducer, Sums, found};
 use crate::par::{Nodes, Parts};
 use crate::problem::Window;
 use crate::real::Real;
 use crate::vector::sums;
-
-/// The least share of its gap that a node keeps in a step, where the law has no bound at zero gap.
-pub(super) const CLOSER: f64 = 0.5;
 
 /// The least gap of a node after a step.
 #[derive(Clone, Copy, Debug)]
@@ -200,7 +198,7 @@ impl<'a, T: Real> Potential<'a, T> {
             (Some(Wall::Rigid | Wall::Capped(_)), _) => Least { rest: T::zero(), share: T::zero(), depth: T::zero() },
             (Some(Wall::None), Some(rest)) => {
                 let bounded = self.law.energy(T::zero()).is_finite();
-                let [share, depth] = if bounded { [T::zero(), T::infinity()] } else { [T::lit(CLOSER), T::zero()] };
+                let [share, depth] = if bounded { [T::zero(), T::infinity()] } else { [T::lit(HALF), T::zero()] };
                 Least { rest, share, depth }
             }
             _ => Least::unbounded(),

@@ -2,7 +2,7 @@
 
 use super::Criterion;
 use super::iterate::{Iterate, SCALED};
-use crate::degrees::{ROUGHLY, ROUNDINGS};
+use crate::degrees::{ROUGHLY, ROUNDINGS, TWICE};
 use crate::problem::Load;
 use crate::real::Real;
 
@@ -10,9 +10,6 @@ mod apart;
 mod scale;
 
 use scale::Scale;
-
-/// The ratio of an error to the error by rounding up to which an iterate is at the floor.
-const NEAR_FLOOR: f64 = 2.0;
 
 /// An iterate with the mean of r'·K r', which is infinite as long as it is not known.
 pub(super) struct Proof<'i, 'a, T: Real, Lo> {
@@ -47,7 +44,7 @@ impl<'i, 'a, T: Real, Lo: Real> Proof<'i, 'a, T, Lo> {
     pub(super) fn is_at_floor(&self) -> bool {
         let Scale { energy, rounding } = self.error_scale();
         let floor = (rounding / energy).sqrt();
-        self.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
+        self.certificate <= TWICE * TWICE * rounding && self.load_error() <= TWICE * floor
     }
 
     /// The error of the load. Without contact the mean of r is the load that adhesion lacks.

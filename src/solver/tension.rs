@@ -8,25 +8,21 @@ use super::passes::Fields;
 use super::plan::Stage;
 use super::posed::Posed;
 use super::stages::adhere;
-use crate::degrees::{FAR, HARDLY, PARTLY};
+use crate::degrees::{FAR, HARDLY, PARTLY, TWICE};
 use crate::error::Result;
 use crate::field::{found, read};
 use crate::problem::Load;
 use crate::real::Real;
 use crate::vector::sums;
 
-/// The share of the work of adhesion that a law has left at least where its traction is strongest.
-pub(crate) const STRONGEST: f64 = 0.5;
+/// The most loads or mean gaps that are tried in search of a hold.
+pub(super) const TRIES: usize = 12;
 
-/// The most mean gaps tried in search of a hold, and the share of an interval that a golden section keeps.
-const SECTIONS: usize = 12;
+/// The share of an interval that a golden section keeps.
 const GOLDEN: f64 = 0.618;
 
 /// Gaps at which the law is asked for its strongest traction.
 const SAMPLES: usize = 1000;
-
-/// How much more than concave functions the tension may rise between mean gaps at which it is known.
-const RISE: f64 = 2.0;
 
 /// Where adhesion may hold surfaces that have come apart from full contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,8 +116,8 @@ pub(super) fn hold_gap<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, obse
     let mut interval =
         [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * FAR * descent.iterate.posed.law().hints().range.widen()];
     let [mut gaps, mut held] = [[0.0; 2]; 2];
-    let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
-    for section in 0..SECTIONS {
+    let (mut next, mut tried) = (None, Vec::with_capacity(TRIES));
+    for section in 0..TRIES {
         let side = next.unwrap_or(section % 2);
         let width = interval[1] - interval[0];
         gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
@@ -224,7 +220,7 @@ fn most_between(tried: &mut [(f64, f64)], hardly: f64) -> f64 {
         return f64::INFINITY;
     }
     let rise = |from: (f64, f64), to: (f64, f64)| (most - from.1) / (gap - from.0) * (to.0 - gap);
-    most + RISE * rise(before, after).max(rise(after, before))
+    most + TWICE * rise(before, after).max(rise(after, before))
 }
 
 #[cfg(test)]

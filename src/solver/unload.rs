@@ -1,27 +1,26 @@
 //! The way of surfaces that adhere to no load, on which the last contacts hold each other.
 
+use super::tension::TRIES;
 use super::{Begin, Place, Solved};
+use crate::degrees::FIRST_STEP;
 use crate::error::Result;
 use crate::problem::Control;
 use crate::real::Real;
 
-/// The share of the load that each of at most twelve steps leaves.
-const SHARE: f64 = 1.0 / 16.0;
-
-/// Takes the load of surfaces away in steps, from the place under it, as a single step may part contacts that hold each
+/// Takes the load of surfaces away in steps, each of which leaves the share of a first step, from the place under it, as a single step may part contacts that hold each
 /// other. Returns the state under no load; none if the last contacts do not hold.
 pub(crate) fn unload<T: Real>(
     mut solve: impl FnMut(Control, Begin<'_, T>) -> Result<Solved<T>>,
     load: Control,
     mut place: Place<T>,
 ) -> Result<Option<Solved<T>>> {
-    for step in 1..=12 {
+    for step in 1..=TRIES {
         let of_load = |share: f64| match load {
             Control::Force(force) => Control::Force(share * force),
             Control::MeanPressure(pressure) => Control::MeanPressure(share * pressure),
             other => other,
         };
-        let pressed = solve(of_load(SHARE.powi(step)), Begin::Found(place))?;
+        let pressed = solve(of_load(FIRST_STEP.powi(step as i32)), Begin::Found(place))?;
         if !pressed.is_settled() || pressed.solution.report.contact_nodes == 0 {
             break;
         }

@@ -1,7 +1,7 @@
 //! The smallest eigenvalue, by locally optimal preconditioned conjugate gradients (Knyazev 2001).
 
 use super::hessian::Hessian;
-use crate::degrees::LITTLE;
+use crate::degrees::{ALIKE, LITTLE};
 use crate::error::Result;
 use crate::field::{Field, read};
 use crate::par::Parts;
@@ -17,9 +17,6 @@ pub(super) struct Eigenpair<T> {
     /// the mode x, of mean square 1
     pub(super) vector: Field<T>,
 }
-
-/// The least component outside the span of the other vectors, as a share; below, a vector counts as dependent.
-const DEPENDENT: f64 = 1e-10;
 
 type Matrix = [[f64; 3]; 3];
 
@@ -144,7 +141,7 @@ fn ritz(gram: &Matrix, energy: &Matrix, directions: usize) -> [f64; 3] {
             }
         }
         let left = form(gram, &next, &next);
-        if left > DEPENDENT * gram[k][k] {
+        if left > ALIKE * gram[k][k] {
             basis.push(next.map(|c| c / left.sqrt()));
         }
     }

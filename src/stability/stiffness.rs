@@ -3,7 +3,7 @@
 use super::edge::EdgeError;
 use super::hessian::Hessian;
 use super::tangent::Tangent;
-use super::{Near, check_gap, slopes};
+use super::{MOST, Near, check_gap, slopes};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::error::{Error, Result};
 use crate::field::Field;
@@ -17,9 +17,6 @@ once! {
         problem: ProblemMut<'a, T>, constraint: &'a dyn ContactConstraint<T>, solution: &'a Solution<T>, tolerance: f64,
     ) -> Result<ContactStiffness> = [within] ContactStiffness::find;
 }
-
-/// The most iterations; some ten are usual.
-const MOST: usize = 500;
 
 /// The contact stiffness of an equilibrium: how much the load grows as the bodies approach each other by a length.
 ///

@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::eigenpair::{Eigenpair, lowest_from, normalise};
 use super::hessian::Hessian;
-use super::{Near, slopes};
+use super::{MOST, Near, slopes};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::degrees::{LITTLE, ROUGHLY};
@@ -18,9 +18,6 @@ use crate::solver::{Least, Potential, bounded};
 
 /// The share of a random field added to the last mode: an antisymmetric mode has no share in a symmetric start.
 const FRESH: f64 = 0.03;
-
-/// Iterations on a state at most.
-const MOST: usize = 200;
 
 /// The watch for saddles at given mean gaps; each search starts from the last mode.
 #[derive(Clone, Debug)]

@@ -7,13 +7,11 @@ use ndarray::Array2;
 
 use super::Surface;
 use super::resample::{by_lines, changed};
+use crate::degrees::ALIKE;
 use crate::error::{Error, Result};
 
 /// The relative difference of numbers that may be the same: texts have some seven digits.
 pub(super) const SAME: f64 = 1e-6;
-
-/// The distance from a whole number of nodes, in nodes, below which a shift is one.
-const WHOLE: f64 = 1e-9;
 
 impl Surface {
     /// The surface between this one and another that faces it: the heights add.
@@ -79,7 +77,7 @@ impl Surface {
 fn in_nodes(name: &'static str, length: f64, spacing: f64, n: usize) -> Result<(usize, f64)> {
     let nodes = (Error::finite(name, length)? / spacing).rem_euclid(n as f64);
     let fraction = nodes - nodes.round();
-    Ok((nodes.round() as usize % n, if fraction.abs() < WHOLE { 0.0 } else { fraction }))
+    Ok((nodes.round() as usize % n, if fraction.abs() < ALIKE { 0.0 } else { fraction }))
 }
 
 /// A field turned over about the y axis, and moved by whole nodes.

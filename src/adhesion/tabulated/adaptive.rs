@@ -2,12 +2,9 @@
 
 use super::functions::{Functions, at, one};
 use super::scales::{Scales, broken, check_sign};
-use super::{Jump, NEAREST, Piece, Tabulated, key, of_key};
+use super::{ENDS, Jump, Piece, Tabulated, key, of_key};
 use crate::adhesion::check::NAMES;
 use crate::error::{Breach, Error, Result};
-
-/// The place from which on the energy is constant.
-const FARTHEST: f64 = 1_048_576.0;
 
 /// The largest error of energy and traction in an interval, over the largest value of the function.
 const TOLERANCE: f64 = 1e-11;
@@ -87,8 +84,8 @@ impl Tabulated {
         let law = &functions;
         let Scales { hints, least, goes_on } = Scales::of(law)?;
         let (range, rest, origin) = (hints.range, hints.rest, least.unwrap_or(0.0));
-        let (base, end) = (key(NEAREST), key(FARTHEST));
-        let below = least.map(|_| Candidate { interval: 0, start: 0.0, end: NEAREST });
+        let (base, end) = (key(ENDS.0), key(ENDS.1));
+        let below = least.map(|_| Candidate { interval: 0, start: 0.0, end: ENDS.0 });
         let above = (base..end).map(|k| Candidate { interval: k - base + 1, start: of_key(k), end: of_key(k + 1) });
         let mut open: Vec<Candidate> = below.into_iter().chain(above).collect();
 
@@ -140,7 +137,7 @@ impl Tabulated {
         found.iter().for_each(|(interval, _)| first[interval + 1] += 1);
         (1..first.len()).for_each(|k| first[k] += first[k - 1]);
         let pieces = found.into_iter().map(|(_, piece)| piece).collect();
-        Ok(Self { hints, origin, unit: range, first, pieces, end: FARTHEST, far, jumps, compliance: 0.0 })
+        Ok(Self { hints, origin, unit: range, first, pieces, end: ENDS.1, far, jumps, compliance: 0.0 })
     }
 }
 

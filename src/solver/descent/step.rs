@@ -1,7 +1,7 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
 use super::Descent;
-use crate::degrees::{FAR, LITTLE};
+use crate::degrees::{FAR, HALF, LITTLE, MOSTLY};
 use crate::error::Result;
 use crate::field::{CHUNK, Sums, read, write};
 use crate::par::Parts;
@@ -9,14 +9,9 @@ use crate::real::{Real, cast};
 use crate::solver::iterate::Iterate;
 use crate::solver::minimisation::{Nearness, Next, Step};
 use crate::solver::passes::{self, Attempt, Fields, Tried, idles};
-use crate::solver::potential::CLOSER;
 
 /// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
-
-/// The share of a step that the next one takes along where the law pulls more than the body resists: on the way from one
-/// equilibrium to another.
-const ONWARD: f64 = 0.7;
 
 /// The least and largest ratio of two successive trial lengths.
 const ADAPT: (f64, f64) = (0.7, 1.3);
@@ -135,7 +130,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
                 // the mean gap has no elastic curvature that would limit a step
                 ((overlap / made.curvature).max(0.0), (-made.factor * made.descent / made.curvature).min(FAR))
             } else if made.factor * made.descent < 0.0 {
-                (0.0, ONWARD)
+                (0.0, MOSTLY)
             } else {
                 return None;
             };
@@ -323,7 +318,7 @@ impl<T: Real, Lo: Real> Descent<'_, T, Lo> {
             false if local.projects() && best <= 1.0 => best,
             false if local.projects() => best.min(passes::reach(fields, &local).max(1.0)),
             // the law has no bound at zero gap
-            false => best.min(CLOSER * passes::reach(fields, &local)),
+            false => best.min(HALF * passes::reach(fields, &local)),
         };
         // the tangent of a concave energy bounds it
         let bound = length * trial.slope + 0.5 * length * length * quadratic;

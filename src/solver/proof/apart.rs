@@ -1,10 +1,9 @@
 //! Whether a load has pulled surfaces apart.
 
 use super::Proof;
-use crate::degrees::{HARDLY, LITTLE};
+use crate::degrees::{HALF, HARDLY, LITTLE};
 use crate::problem::Load;
 use crate::real::Real;
-use crate::solver::tension::STRONGEST;
 
 impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     /// Whether a load that does not press has left the surfaces apart: no contact, and hardly any traction.
@@ -35,7 +34,7 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
     /// one node may have less than another.
     fn flies_apart(&self) -> bool {
         let hints = self.iterate.posed.law().hints();
-        let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };
+        let least = if hints.concave { 1.0 - HARDLY } else { HALF };
         let exceeds = self.iterate.tally().traction < self.pulled() && (hints.concave || hints.shape.is_none());
         let flies = self.stored() < least * hints.work_of_adhesion.widen()
             && (exceeds || self.pulled() == 0.0 && self.iterate.posed.from_full_contact);

@@ -1,6 +1,7 @@
 //! The scale of a certified error: the energy that a certificate is compared with, and the certificate of rounding.
 
-use super::{NEAR_FLOOR, Proof};
+use super::Proof;
+use crate::degrees::TWICE;
 use crate::real::Real;
 
 /// The scale of a certificate, and the floor under it, both as the mean of u·p.
@@ -49,7 +50,7 @@ impl<T: Real, Lo: Real> Proof<'_, '_, T, Lo> {
         let waves = self.iterate.mean_work().max(apart);
         let (adhesion, hints) = (self.attraction(), self.iterate.posed.law().hints());
         let attracts = self.iterate.mean_traction().max(adhesion) >= self.iterate.given().abs();
-        if attracts && rounding > (self.tolerance() / NEAR_FLOOR).powi(2) * waves {
+        if attracts && rounding > (self.tolerance() / TWICE).powi(2) * waves {
             let strongest = (hints.work_of_adhesion / hints.range).widen();
             return waves.max(adhesion * strongest / self.iterate.posed.stiffness_range().1);
         }
