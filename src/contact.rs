@@ -106,11 +106,11 @@ fn attracting<T: Real>(
     let least = T::lit(noticeable(law));
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
-    law.evaluate(grid.slab().first_node(), &gaps, Values::one(1, &mut tractions));
+    law.evaluate(grid.first_node(), &gaps, Values::one(1, &mut tractions));
     let mut attracts: Vec<_> =
         contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect();
     if law.hints().touches() {
-        let mut neighbourhood = Neighbourhood::none((grid, grid.slab()), periodic);
+        let mut neighbourhood = Neighbourhood::none(grid, periodic);
         neighbourhood.contact.nodes_mut().iter_mut().zip(contact).for_each(|(own, &touches)| *own = touches);
         neighbourhood.grow();
         attracts.iter_mut().zip(neighbourhood.near().nodes()).for_each(|(attracts, &near)| *attracts &= near);

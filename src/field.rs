@@ -136,6 +136,11 @@ impl Reducer {
         Self { chunks, slab, shares, own, all }
     }
 
+    /// The reducer of a whole field of this shape.
+    pub(crate) fn whole(shape: (usize, usize)) -> Self {
+        Self::new(Slab::whole(shape))
+    }
+
     /// Runs `f(first node, chunk)` over the chunks; nodes count on the whole grid.
     pub(crate) fn run<A: Parts, S: Sums>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> S + Sync + Send) -> S {
         self.run_where(|_| true, chunks, f)

@@ -10,7 +10,7 @@ use crate::field::{CHUNK, Reducer, all_finite_in, ordered};
 use crate::par::{self, Parts};
 use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
-use crate::slab::Slab;
+use crate::slab::{Rows, Slab};
 
 /// A periodic rectangle of Nx × Ny nodes on sides Lx × Ly; `Ny = 1` is a line, on which Ly has no influence.
 ///
@@ -121,6 +121,56 @@ impl Grid {
         self.slab.each(own)
     }
 
+    /// Whether something is so anywhere on the grid, from whether it is so in the rows here. All processes have to ask.
+    pub(crate) fn any(&self, here: bool) -> bool {
+        self.each(here).contains(&true)
+    }
+
+    /// The number of some nodes on the grid, from their number in the rows here. All processes have to ask.
+    pub(crate) fn sum(&self, here: usize) -> usize {
+        self.each(here).iter().sum()
+    }
+
+    /// Adds the numbers of all rows to the numbers of the rows here. All processes have to ask.
+    pub(crate) fn add_up(&self, here: &mut [u64]) {
+        self.slab.ranks().add_up(here);
+    }
+
+    /// The least number on the grid, from the least one in the rows here. All processes have to ask.
+    pub(crate) fn least(&self, here: f64) -> f64 {
+        self.each(here).into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The greatest number on the grid, from the greatest one in the rows here. All processes have to ask.
+    pub(crate) fn greatest(&self, here: f64) -> f64 {
+        self.each(here).into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The result of the rows here, or an error of other rows. All processes have to ask.
+    pub(crate) fn agreed<T>(&self, here: Result<T>) -> Result<T> {
+        self.slab.agreed(here)
+    }
+
+    /// The rows of a field that the rows of another grid need, by `needs` for each row. All processes have to ask.
+    pub(crate) fn rows_for<'a, A: Sent, I: IntoIterator<Item = usize>>(
+        &self,
+        field: impl Into<CowArray<'a, A, Ix2>>,
+        to: &Self,
+        needs: impl Fn(usize) -> I,
+    ) -> Rows<'a, A> {
+        self.slab.rows_for(field, &to.slab, needs)
+    }
+
+    /// The lists of all rows, one after the other, from the list of the rows here. All processes have to ask.
+    pub(crate) fn lists<E: Sent>(&self, here: Vec<E>) -> Vec<E> {
+        self.slab.ranks().lists(here)
+    }
+
+    /// A field in the rows of the same grid with another division. All processes have to ask.
+    pub(crate) fn moved<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>, to: &Self) -> CowArray<'a, A, Ix2> {
+        self.slab.moved(field.into(), &to.slab)
+    }
+
     /// The whole of a field, on every one of the processes that share the grid. All of them have to ask.
     pub fn whole<'a, E: Sent>(&self, field: impl Into<CowArray<'a, E, Ix2>>) -> CowArray<'a, E, Ix2> {
         self.slab.whole_of(field)
@@ -134,12 +184,22 @@ impl Grid {
 
     /// Refuses a field that does not have the shape of the grid's. All processes have to ask.
     pub(crate) fn fits(&self, name: &'static str, shape: (usize, usize)) -> Result<()> {
-        self.slab.agreed(Error::shape(name, shape, self.field_shape()))
+        self.agreed(Error::shape(name, shape, self.field_shape()))
     }
 
     /// Refuses a field that is not finite somewhere. All processes have to ask.
     pub(crate) fn finite<T: Real>(&self, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
         all_finite_in(self.slab, name, field)
+    }
+
+    /// Refuses what takes more memory than there is.
+    pub(crate) fn afford(&self, what: &str, bytes_per_node: usize) -> Result<()> {
+        self.slab.afford(what, bytes_per_node)
+    }
+
+    /// Refuses `what` where several processes share the grid.
+    pub(crate) fn refuse_shared(&self, what: &'static str) -> Result<()> {
+        self.slab.alone(what)
     }
 
     pub(crate) fn reducer(&self) -> Reducer {
@@ -165,6 +225,24 @@ impl Grid {
 
     pub(crate) fn slab(&self) -> Slab {
         self.slab
+    }
+
+    /// The number of the first node of the rows here: nodes count along the rows of the whole grid.
+    pub(crate) fn first_node(&self) -> usize {
+        self.slab.first_node()
+    }
+
+    /// A grid of `shape` nodes on sides of `lengths` that the processes of this one share.
+    ///
+    /// # Errors
+    /// As [`Grid::new`] and [`Self::within`].
+    pub(crate) fn sibling(&self, shape: (usize, usize), lengths: (f64, f64)) -> Result<Self> {
+        Self::new(shape, lengths)?.within(self.slab.for_grid(shape))
+    }
+
+    /// This grid, on the first nodes of a `larger` one along both sides, with the rows that the larger one has here.
+    pub(crate) fn held_by(&self, larger: &Self) -> Self {
+        Self { slab: larger.slab.window(self.shape()), ..*self }
     }
 
     /// The grid with another division into slabs; [`Error::Value`] if a process would hold more nodes than MPI counts.

@@ -212,7 +212,7 @@ impl<T: Real> Problem<T> {
     /// Lowers the surface to the plastic depth of a strategy, if it has one, on the operator's grid.
     pub(crate) fn yield_to(&mut self, depth: Option<&Array2<T>>) -> Result<()> {
         match depth {
-            Some(depth) if self.operator.grid().each(self.yielded() != Some(depth)).contains(&true) => {
+            Some(depth) if self.operator.grid().any(self.yielded() != Some(depth)) => {
                 self.flat.flatten(&mut *self.operator, Field::of(depth))
             }
             _ => Ok(()),

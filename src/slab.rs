@@ -55,6 +55,11 @@ impl<A> Rows<'_, A> {
             None => self.fetched.row(self.others.partition_point(|&other| other < row)),
         }
     }
+
+    /// A row of a field that this crate made, which is contiguous by construction.
+    pub(crate) fn line(&self, row: usize) -> &[A] {
+        self.row(row).to_slice().unwrap_or_default()
+    }
 }
 
 impl Slab {

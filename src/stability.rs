@@ -10,7 +10,7 @@ use crate::adhesion::{AdhesionLaw, Neighbourhood, Touched};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
+use crate::field::{CHUNK, Field, Minimum, ordered, write};
 use crate::names::names;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, PressedFlat, Problem, ProblemMut, smoothed_law};
@@ -289,7 +289,7 @@ fn check_gap<T: Real>(
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
         Err(Error::Value { name: "gap", value: gap.widen(), requirement })
     });
-    problem.grid().slab().agreed(refused)
+    problem.grid().agreed(refused)
 }
 
 /// Where surfaces attract each other by a law that [does so next to contacts alone](crate::adhesion::Hints::touching).
@@ -309,7 +309,7 @@ fn slopes<T: Real>(
     (operator, flat): (&dyn ElasticOperator<T>, &PressedFlat<T>),
 ) -> Result<Field<T>> {
     let grid = operator.grid();
-    let (slab, gap) = (flat.held(grid), flat.hold(gap));
+    let (held, gap) = (flat.held(grid), flat.hold(gap));
     let gaps = ordered(gap.view());
     let mut slopes = Field::zeros(gap.dim());
     let wall = constraint.wall();
@@ -322,12 +322,11 @@ fn slopes<T: Real>(
         Near::Of(touched) => touched.map(Some),
     };
     let touched = near.map(|touched| {
-        let grid = (flat.grid(grid), slab);
-        let mut neighbourhood = Neighbourhood::none(grid, operator.boundary().is_periodic());
+        let mut neighbourhood = Neighbourhood::none(held, operator.boundary().is_periodic());
         if let Some(touched) = touched {
             neighbourhood.add(&Field::of(flat.hold(touched)));
         } else {
-            let nodes = neighbourhood.contact.nodes_mut().iter_mut().zip(&*gaps).zip(slab.first_node()..);
+            let nodes = neighbourhood.contact.nodes_mut().iter_mut().zip(&*gaps).zip(held.first_node()..);
             nodes.for_each(|((contact, &gap), node)| *contact = touches(node, gap));
             neighbourhood.grow();
         }
@@ -335,7 +334,7 @@ fn slopes<T: Real>(
     });
     let law = touched.as_ref().map_or(law, |touched| touched);
     let local = Potential::new(law, constraint, None);
-    let wrong = Reducer::new(slab).run(par::chunks(&gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
+    let wrong = held.reducer().run(par::chunks(&gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut wrong = f64::INFINITY;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
@@ -348,11 +347,11 @@ fn slopes<T: Real>(
         Minimum(wrong)
     });
     if wrong.0.is_finite() {
-        let own = (wrong.0 as usize).checked_sub(slab.first_node());
+        let own = (wrong.0 as usize).checked_sub(held.first_node());
         let own = own.and_then(|node| Some((gaps.get(node)?.widen(), slopes.nodes().get(node)?.widen())));
         let refused =
             own.map_or(Ok(()), |(gap, value)| Err(Error::not_finite("slope of the local traction", gap, value)));
-        slab.agreed(refused)?;
+        held.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
     Ok(flat.place(slopes, T::zero()))

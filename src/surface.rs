@@ -65,7 +65,7 @@ impl Surface {
     /// [`Error::Shape`] if they do not fit the grid, [`Error::Value`] if all nodes are absent.
     pub fn with_absent(self, absent: Array2<bool>) -> Result<Self> {
         self.grid.fits("absent nodes", absent.dim())?;
-        let count: usize = self.grid.each(absent.iter().filter(|&&absent| absent).count()).iter().sum();
+        let count = self.grid.sum(absent.iter().filter(|&&absent| absent).count());
         if count == self.grid.nodes() {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
@@ -78,7 +78,7 @@ impl Surface {
     /// # Errors
     /// [`Error::NotFinite`] if the function is not finite at a node, [`Error::Memory`] if the memory does not suffice.
     pub fn from_fn(grid: Grid, height: impl Fn(f64, f64) -> f64) -> Result<Self> {
-        grid.slab().afford("a surface", 8)?;
+        grid.afford("a surface", 8)?;
         Self::new(grid, grid.sample(height))
     }
 
@@ -142,7 +142,7 @@ impl Surface {
     /// The number of absent nodes, of the whole surface. Where several processes share its grid, all have to ask.
     pub fn absent_nodes(&self) -> usize {
         let absent = |absent: &Array2<bool>| absent.iter().filter(|&&absent| absent).count();
-        self.absent.as_ref().map_or(0, |own| self.grid.each(absent(own)).iter().sum())
+        self.absent.as_ref().map_or(0, |own| self.grid.sum(absent(own)))
     }
 
     /// The mean height.

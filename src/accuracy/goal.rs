@@ -188,7 +188,7 @@ impl Accuracy {
         law: &dyn AdhesionLaw<T>,
         control: Control,
     ) -> Result<Plan> {
-        surface.grid().slab().alone("accuracy")?;
+        surface.grid().refuse_shared("accuracy")?;
         let tolerance = self.tolerance(&solver.settings)?;
         self.of.check(control)?;
         let boundary = operator.boundary();

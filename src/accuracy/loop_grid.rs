@@ -153,7 +153,7 @@ impl Accuracy {
     /// The surface on coarser grids, the coarsest first: those of half and of a quarter of the nodes along the sides, as far as
     /// there are any, and coarser ones with no less than [`FIRST`].
     fn grids_below<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> Result<Vec<Surface>> {
-        surface.grid().slab().alone("accuracy")?;
+        surface.grid().refuse_shared("accuracy")?;
         Error::positive("accuracy", self.target)?;
         let what = "accuracy of a loop";
         if !Quantity::OF_LOOPS.contains(&self.of) {

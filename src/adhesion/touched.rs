@@ -5,7 +5,6 @@ use crate::field::Field;
 use crate::grid::Grid;
 use crate::par;
 use crate::real::Real;
-use crate::slab::Slab;
 
 /// The distance from a contact within which surfaces attract each other, in the larger spacing of the grid: the process
 /// zone at the edge of a contact takes three nodes, and nodes at four spacings along a diagonal are four and a bit away.
@@ -16,8 +15,6 @@ const REACH: f64 = 4.2;
 #[derive(Clone, Debug)]
 pub(crate) struct Neighbourhood {
     grid: Grid,
-    /// the rows that this process holds
-    slab: Slab,
     periodic: bool,
     near: Field<bool>,
     /// contacts with a neighbourhood that is taken in next
@@ -25,13 +22,13 @@ pub(crate) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// No node, in the rows of a slab of a grid. Opposite sides meet if `periodic`.
-    pub(crate) fn none((grid, slab): (&Grid, Slab), periodic: bool) -> Self {
-        let [near, contact] = [(); 2].map(|()| Field::filled(slab.held(), false));
-        Self { grid: *grid, slab, periodic, near, contact }
+    /// No node of a grid. Opposite sides meet if `periodic`.
+    pub(crate) fn none(grid: &Grid, periodic: bool) -> Self {
+        let [near, contact] = [(); 2].map(|()| Field::filled(grid.field_shape(), false));
+        Self { grid: *grid, periodic, near, contact }
     }
 
-    /// Whether each node of the slab is near a contact.
+    /// Whether each node is near a contact.
     pub(crate) fn near(&self) -> &Field<bool> {
         &self.near
     }
@@ -46,21 +43,20 @@ impl Neighbourhood {
         self.contact.nodes_mut().iter_mut().zip(self.near.nodes()).for_each(|(contact, &near)| *contact &= near);
     }
 
-    /// Whether [contacts](Self::contact), in any process, are not near others. All processes have to call it.
+    /// Whether [contacts](Self::contact) are not near others.
     pub(crate) fn has_others(&self) -> bool {
         let others = self.contact.nodes().iter().zip(self.near.nodes()).any(|(&contact, &near)| contact && !near);
-        self.grid.each(others).contains(&true)
+        self.grid.any(others)
     }
 
-    /// The node of the whole grid that is the first of the slab.
+    /// The node of the whole grid that is the first of its rows.
     pub(crate) fn first_node(&self) -> usize {
-        self.slab.first_node()
+        self.grid.first_node()
     }
 
-    /// Takes in the nodes next to the [contacts](Self::contact); whether any of them, in any process, is new. All
-    /// processes have to call it.
+    /// Takes in the nodes next to the [contacts](Self::contact); whether any of them is new.
     pub(crate) fn grow(&mut self) -> bool {
-        let Self { grid, slab, periodic, near, contact } = self;
+        let Self { grid, periodic, near, contact } = self;
         let ((nx, ny), (dx, dy), periodic) = (grid.shape(), grid.spacing(), *periodic);
         let reach = REACH * grid.largest_spacing();
         // how far it extends along the row of a contact, and along the rows beside that
@@ -73,8 +69,8 @@ impl Neighbourhood {
             let behind = widths.iter().enumerate().skip(1).filter(move |(away, _)| periodic || *away <= row);
             ahead.chain(behind.map(move |(away, &width)| (row + nx - away, width))).map(move |(row, w)| (row % nx, w))
         };
-        let rows = slab.rows_for(contact.view(), slab, |row| beside(row).map(|(other, _)| other));
-        let start = slab.rows().start;
+        let rows = grid.rows_for(contact.view(), grid, |row| beside(row).map(|(other, _)| other));
+        let start = grid.rows().start;
         let mut news = vec![false; near.nrows()];
         par::update(par::chunks_mut(near.nodes_mut(), ny), &mut news, |i, near, is_new| {
             for (other, width) in beside(start + i) {
@@ -84,7 +80,7 @@ impl Neighbourhood {
                 }
             }
         });
-        grid.each(news.contains(&true)).contains(&true)
+        grid.any(news.contains(&true))
     }
 }
 
@@ -197,7 +193,7 @@ mod tests {
             let grid = Grid::new(shape, lengths).unwrap();
             for periodic in [true, false] {
                 let contacts = [(0, 0), (shape.0 / 2, shape.1 / 3), (shape.0 - 1, shape.1 - 1)];
-                let mut found = Neighbourhood::none((&grid, grid.slab()), periodic);
+                let mut found = Neighbourhood::none(&grid, periodic);
                 contacts.iter().for_each(|&(i, j)| found.contact.view_mut()[[i, j]] = true);
                 assert!(found.grow() && !found.grow());
                 let away = |a: usize, b: usize, n: usize| {

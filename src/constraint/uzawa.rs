@@ -11,7 +11,6 @@ use crate::field::{CHUNK, Field, Reducer, ordered, read, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
-use crate::slab::Slab;
 
 /// The factor by which the springs stiffen after a round that leaves more than its reciprocal of the interpenetration.
 const STIFFEN: f64 = 4.0;
@@ -144,7 +143,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         let nodes = ordered(gap);
         let gaps = || par::chunks(&nodes, CHUNK);
         let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
-        let mut reducer = Reducer::new(Slab::whole(gap.dim()));
+        let mut reducer = Reducer::whole(gap.dim());
         let [change, change_squared, squared] =
             reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
                 let [mut sum, mut change_squared, mut squared] = [0.0; 3];

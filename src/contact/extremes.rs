@@ -34,11 +34,9 @@ pub struct PressureExtremes {
 impl PressureExtremes {
     /// The extremes of an elastic pressure on a grid, which processes may share, of surfaces that adhere or do not.
     pub fn of<T: Real>(pressure: ArrayView2<'_, T>, grid: &Grid, adheres: bool) -> Self {
-        let fold = |start, of: fn(f64, f64) -> f64| {
-            let own = pressure.iter().fold(start, |extreme, p| of(extreme, p.widen()));
-            grid.each(own).into_iter().fold(start, of)
-        };
-        let (least, greatest) = (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max));
+        let fold = |start, of: fn(f64, f64) -> f64| pressure.iter().fold(start, |extreme, p| of(extreme, p.widen()));
+        let least = grid.least(fold(f64::INFINITY, f64::min));
+        let greatest = grid.greatest(fold(f64::NEG_INFINITY, f64::max));
         if adheres || least >= 0.0 {
             return Self { least, greatest, residue: 0.0 };
         }

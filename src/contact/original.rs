@@ -49,7 +49,7 @@ impl Original {
     /// [`Error::Value`] for no nodes, [`Error::Shape`] for more than the map has, and [`Error::Shared`] if several
     /// processes share the grid.
     pub fn new(whole: &Grid, nodes: (usize, usize)) -> Result<Self> {
-        whole.slab().alone("the original of a mirrored map")?;
+        whole.refuse_shared("the original of a mirrored map")?;
         let (shape, (dx, dy)) = (whole.shape(), whole.spacing());
         if nodes.0 > shape.0 || nodes.1 > shape.1 {
             return Err(Error::Shape { name: "original", found: nodes, expected: shape });

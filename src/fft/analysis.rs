@@ -7,6 +7,7 @@ use super::Convolver;
 use super::layout::Layout;
 use crate::error::Result;
 use crate::field::Field;
+use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::slab::Slab;
 
@@ -61,15 +62,15 @@ pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Field<f64> {
     Field::from_fn(shape, |(k, i)| spectrum.mode(spectrum.own.start + k, i).re)
 }
 
-/// The field of given modes in a slab, index zero along the first axis in the middle, and `fill`'s values summed in
+/// The field of given modes on a grid, index zero along the first axis in the middle, and `fill`'s values summed in
 /// order.
 /// `fill` gets the column's index along the second axis, and zeros to overwrite by its modes along the first. Column 0
 /// and the Nyquist column must be even with conjugation.
 pub(crate) fn synthesise(
-    slab: Slab,
+    grid: &Grid,
     fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,
 ) -> (Array2<f64>, f64) {
-    let mut convolver = Convolver::with(slab, Layout::plain(slab.shape()));
+    let mut convolver = Convolver::with(grid.slab(), Layout::plain(grid.shape()));
     convolver.spectrum.take_memory();
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     spectrum.each(pool, usize::MAX, |k, column, scratch| {
@@ -81,7 +82,7 @@ pub(crate) fn synthesise(
     });
     spectrum.go();
     let [sum, ..] = spectrum.sums();
-    let mut field = Array2::zeros(slab.held());
+    let mut field = Array2::zeros(grid.field_shape());
     if !field.is_empty() {
         convolver.rows_inverse(field.view_mut(), 1.0);
     }

@@ -30,7 +30,7 @@ struct Part {
 }
 
 impl Part {
-    /// The part about the contact, if it has at most half of the window's nodes, in a gap on the window or a larger grid, by rows of a slab.
+    /// The part about the contact, if it has at most half of the window's nodes, in a gap on the window or a larger grid.
     fn of<T: Real>(window: (usize, usize), grid: &Grid, gap: &ArrayRef2<T>, law: &dyn AdhesionLaw<T>) -> Option<Self> {
         let hints = law.hints();
         let least = T::lit(REACH) * hints.work_of_adhesion / hints.range;
@@ -61,7 +61,7 @@ impl Part {
     }
 
     fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: &Grid, to: &Grid) -> Array2<T> {
-        let rows = from.slab().rows_for(field.view(), &to.slab(), |row| [self.x.start + row]);
+        let rows = from.rows_for(field.view(), to, |row| [self.x.start + row]);
         let mut cut = Array2::zeros(to.field_shape());
         for (row, mut cut) in to.rows().zip(cut.rows_mut()) {
             cut.assign(&rows.row(self.x.start + row).slice_axis_move(Axis(0), Slice::from(self.y.clone())));
@@ -77,7 +77,7 @@ impl Part {
         f: impl Fn(ArrayViewMut1<'_, T>, ArrayView1<'_, T>),
     ) {
         let of = |row: usize| self.x.contains(&row).then(|| row - self.x.start);
-        let rows = from.slab().rows_for(field, &to.slab(), of);
+        let rows = from.rows_for(field, to, of);
         for (row, mut whole) in to.rows().zip(whole.rows_mut()) {
             if let Some(own) = of(row) {
                 f(whole.slice_axis_mut(Axis(0), Slice::from(self.y.clone())), rows.row(own));
@@ -89,7 +89,7 @@ impl Part {
         let (dx, dy) = surface.grid().spacing();
         let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
         let shape = (self.x.len(), self.y.len());
-        let grid = Grid::new(shape, lengths)?.within(surface.grid().slab().for_grid(shape))?;
+        let grid = surface.grid().sibling(shape, lengths)?;
         Surface::new(grid, self.cut(surface.heights(), surface.grid(), &grid))
     }
 
@@ -97,7 +97,7 @@ impl Part {
     fn control(control: Control, whole: &Surface, part: &Surface) -> Control {
         let highest = |surface: &Surface| {
             let own = surface.heights().iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
-            surface.grid().each(own).into_iter().fold(f64::NEG_INFINITY, f64::max)
+            surface.grid().greatest(own)
         };
         let lower = highest(whole) - highest(part);
         let (lx, ly) = whole.grid().lengths();

@@ -8,12 +8,11 @@ use ndarray::Array2;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::Result;
-use crate::field::{Field, contiguous, ordered};
+use crate::field::{Field, ordered};
 use crate::grid::Grid;
 use crate::par;
 use crate::problem::Window;
 use crate::real::Real;
-use crate::slab::Rows;
 use crate::surface::Surface;
 use crate::vector::vectors;
 
@@ -22,18 +21,18 @@ const WIDER: f64 = 0.77;
 
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
-    let slab = surface.grid().slab();
-    let grid = Grid::new(shape, surface.grid().lengths())?.within(slab.for_grid(shape))?;
-    let (nx, ny) = surface.grid().shape();
+    let fine = surface.grid();
+    let grid = fine.sibling(shape, fine.lengths())?;
+    let (nx, ny) = fine.shape();
     let sides = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| [from, to].map(Side::periodic));
     let [along_x, along_y] = sides.map(|[from, to]| places(from, to));
     let needed = |row: usize| along_x[row].nodes;
-    let heights = slab.rows_for(surface.heights(), &grid.slab(), needed);
-    let absent = surface.absent().map(|absent| slab.rows_for(absent, &grid.slab(), needed));
+    let heights = fine.rows_for(surface.heights(), &grid, needed);
+    let absent = surface.absent().map(|absent| fine.rows_for(absent, &grid, needed));
     let mut coarse = Field::zeros(grid.field_shape());
     par::for_each(par::chunks_mut(coarse.nodes_mut(), shape.1), |i, row| {
         let x = along_x[grid.rows().start + i];
-        let lines = x.nodes.map(|node| line(&heights, node));
+        let lines = x.nodes.map(|node| heights.line(node));
         for (height, y) in row.iter_mut().zip(&along_y) {
             *height = x.cubic(|k| y.cubic(|l| lines[k][y.nodes[l]]));
         }
@@ -44,13 +43,8 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     let absent = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
         absent.row(along_x[first + i].nodes[1])[along_y[j].nodes[1]]
     });
-    let some = grid.each(absent.iter().any(|absent| !absent)).contains(&true);
+    let some = grid.any(absent.iter().any(|absent| !absent));
     if some { coarse.with_absent(absent).map(Some) } else { Ok(None) }
-}
-
-/// A row of a field that this crate made.
-fn line<'a, T>(rows: &'a Rows<'_, T>, row: usize) -> &'a [T] {
-    contiguous(rows.row(row).to_slice())
 }
 
 /// The place of a node among the nodes of another grid along a side.
@@ -206,9 +200,9 @@ impl<T: Real> Deformed<T> {
         let [from, to] = [Side::new(window, coarse.shape()), Side::new(surface.grid().shape(), grid.shape())];
         let (along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let needed = |row: usize| along_x[row].nodes;
-        let displacement = coarse.slab().rows_for(displacement, &grid.slab(), needed);
-        let gap = coarse.slab().rows_for(gap, &grid.slab(), needed);
-        let (width, first) = (grid.shape().1, grid.slab().first_node());
+        let displacement = coarse.rows_for(displacement, grid, needed);
+        let gap = coarse.rows_for(gap, grid, needed);
+        let (width, first) = (grid.shape().1, grid.first_node());
         let facing_in = |nodes: Range<usize>| match &facing {
             None => vec![true; nodes.len()],
             Some(facing) => facing.pieces(nodes).flat_map(|(len, own)| repeat_n(own.is_some(), len)).collect(),
@@ -221,8 +215,8 @@ impl<T: Real> Deformed<T> {
             let [mut displaced, mut apart] = [(); 2].map(|()| vec![0.0; back_y.len()]);
             let at: Vec<f64> = back_y.iter().map(|y| y.cubic(|l| heights[y.nodes[l]])).collect();
             let facing: Vec<bool> = back_y.iter().map(|y| faces[y.nodes[1]]).collect();
-            let [u0, u1, u2, u3] = x.nodes.map(|node| line(&displacement, node));
-            let [g0, g1, g2, g3] = x.nodes.map(|node| line(&gap, node));
+            let [u0, u1, u2, u3] = x.nodes.map(|node| displacement.line(node));
+            let [g0, g1, g2, g3] = x.nodes.map(|node| gap.line(node));
             vectors!([u0, u1, u2, u3, g0, g1, g2, g3, at, facing], [displaced, apart], |j| {
                 let (u, height) = (x.cubic(|k| [u0[j], u1[j], u2[j], u3[j]][k]), at[j]);
                 let gap = touching.gap(&x, u - height, |k| [g0[j], g1[j], g2[j], g3[j]][k].widen());

@@ -8,7 +8,6 @@ use crate::field::Field;
 use crate::grid::Grid;
 use crate::ranks::Sent;
 use crate::real::Real;
-use crate::slab::Slab;
 
 impl<T: Real> PressedFlat<T> {
     /// Whether all nodes of the operator's grid face the surface.
@@ -31,12 +30,12 @@ impl<T: Real> PressedFlat<T> {
         self.window.as_ref().map_or(whole, Window::grid)
     }
 
-    /// The nodes of the surface in the rows of the operator's slab.
-    pub(crate) fn held(&self, whole: &Grid) -> Slab {
-        self.window.as_ref().map_or(whole.slab(), Window::held)
+    /// The grid of the surface in the rows of the operator's grid, the `whole`.
+    pub(crate) fn held<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
+        self.window.as_ref().map_or(whole, Window::held)
     }
 
-    /// A field of the surface's grid in the rows of the operator's slab.
+    /// A field of the surface's grid in the rows of the operator's grid.
     pub(crate) fn hold<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
         let field = field.into();
         match &self.window {
@@ -45,7 +44,7 @@ impl<T: Real> PressedFlat<T> {
         }
     }
 
-    /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid.
+    /// A field of the surface's grid, in the rows of the operator's grid, on the operator's grid.
     pub(crate) fn place<A: Copy + Default + 'static>(&self, field: Field<A>, elsewhere: A) -> Field<A> {
         match &self.window {
             Some(window) => window.place(&field, elsewhere),
@@ -70,7 +69,7 @@ impl<T: Real> PressedFlat<T> {
         }
     }
 
-    /// A field of the operator's grid on the surface's grid, in the rows of the operator's slab.
+    /// A field of the operator's grid on the surface's grid, in the rows of the operator's.
     pub(crate) fn cut<A: Copy + Default + 'static>(&self, field: &Array2<A>, absent: A) -> Field<A> {
         match &self.window {
             Some(window) => window.cut(field, absent),
@@ -87,7 +86,7 @@ impl<T: Real> PressedFlat<T> {
         }
     }
 
-    /// A field of the surface's grid in the rows of its own slab, from the rows of the operator's.
+    /// A field of the surface's grid in its own rows, from the rows of the operator's grid.
     pub(crate) fn release<A: Sent>(&self, held: Field<A>) -> Field<A> {
         match &self.window {
             Some(window) => window.release(held),

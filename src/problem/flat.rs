@@ -5,7 +5,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
-use crate::field::{Field, all_finite_in, ordered};
+use crate::field::{Field, ordered};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -62,7 +62,7 @@ fn check<T: Real>(surface: &Surface, operator: &dyn ElasticOperator<T>, law: &dy
         return Err(Error::Shared { what: "contact", reason });
     }
     if !operator.takes_slabs() {
-        operator.grid().slab().alone("elastic operator")?;
+        operator.grid().refuse_shared("elastic operator")?;
     }
     check_law(law, grid)?;
     let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
@@ -86,8 +86,7 @@ fn extremes(surface: &Surface) -> (f64, f64) {
     let (grid, heights) = (surface.grid(), surface.heights());
     let facing = surface.absent().map(|absent| heights.iter().zip(absent).filter_map(faces).collect());
     let (low, high) = range(&facing.unwrap_or_else(|| ordered(heights.view())));
-    let low = grid.each(low).into_iter().fold(f64::INFINITY, f64::min);
-    (low, grid.each(high).into_iter().fold(f64::NEG_INFINITY, f64::max))
+    (grid.least(low), grid.greatest(high))
 }
 
 impl<T: Real> PressedFlat<T> {
@@ -97,9 +96,9 @@ impl<T: Real> PressedFlat<T> {
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
         check(surface, operator, law)?;
-        let (grid, slab) = (surface.grid(), operator.grid().slab());
+        let grid = surface.grid();
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
-        slab.afford("a solve", 3 * size_of::<T>() + 16)?;
+        operator.grid().afford("a solve", 3 * size_of::<T>() + 16)?;
         let window = Window::new(surface, operator.grid());
         let extended = window.as_ref().map(|window| window.extend(surface.heights().view()));
         let padded;
@@ -126,7 +125,7 @@ impl<T: Real> PressedFlat<T> {
         let mean_square = operator.grid().mean(pressure.view(), |p: T| p.widen().powi(2));
         // squares may be beyond the range of finite pressures
         if !mean_square.is_finite() {
-            all_finite_in(slab, "pressure K⁻¹h of the surface pressed flat", pressure.view())?;
+            operator.grid().finite("pressure K⁻¹h of the surface pressed flat", pressure.view())?;
         }
         let stiffness = mean_square.sqrt() / rms_height;
         let (lx, ly) = grid.lengths();

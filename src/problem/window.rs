@@ -5,26 +5,25 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::error::Result;
-use crate::field::{Field, all_finite_in, ordered};
+use crate::field::{Field, ordered};
 use crate::grid::Grid;
 use crate::ranks::Sent;
 use crate::real::Real;
-use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The nodes of the operator's grid that face a surface; the others have neither wall nor law. The surface is on the
-/// first nodes along both axes; some of these may be absent. Shared grids may be divided differently: work at the nodes
-/// of the surface is done by the process that has them on the operator's grid.
+/// first nodes along both axes; some of these may be absent. Work at the nodes of the surface is done in the rows of the
+/// operator's grid, `held`.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     grid: Grid,
-    /// the nodes of the surface in the rows of the operator's slab
-    held: Slab,
+    /// the grid of the surface in the rows of the operator's grid
+    held: Grid,
     /// the grid of the operator
     whole: Grid,
     /// the runs of nodes that face the surface, each within a row
     runs: Vec<Run>,
-    /// the number of these nodes in all slabs
+    /// the number of these nodes
     facing: usize,
 }
 
@@ -44,8 +43,8 @@ impl Window {
         if grid.shape() == operator.shape() && surface.absent().is_none() {
             return None;
         }
-        let held = operator.slab().window(grid.shape());
-        let absent = surface.absent().map(|absent| grid.slab().moved(absent.into(), &held));
+        let held = grid.held_by(operator);
+        let absent = surface.absent().map(|absent| grid.moved(absent, &held));
         let first = held.rows().start;
         let faces = |i: usize, j: usize| absent.as_ref().is_none_or(|absent| !absent[[i - first, j]]);
         let mut runs: Vec<Run> = Vec::new();
@@ -61,7 +60,7 @@ impl Window {
                 open = faces(i, j);
             }
         }
-        let facing = grid.each(runs.iter().map(|run| run.nodes.len()).sum::<usize>()).iter().sum();
+        let facing = grid.sum(runs.iter().map(|run| run.nodes.len()).sum());
         Some(Self { grid, held, whole: *operator, runs, facing })
     }
 
@@ -69,8 +68,8 @@ impl Window {
         &self.grid
     }
 
-    pub(crate) fn held(&self) -> Slab {
-        self.held
+    pub(crate) fn held(&self) -> &Grid {
+        &self.held
     }
 
     pub(crate) fn facing(&self) -> usize {
@@ -106,9 +105,9 @@ impl Window {
             .is_some_and(|run| run.nodes.contains(&node))
     }
 
-    /// A field of the surface's grid in the rows of the operator's slab.
+    /// A field of the surface's grid in the rows of the operator's grid.
     pub(crate) fn hold<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
-        self.grid.slab().moved(field.into(), &self.held)
+        self.grid.moved(field, &self.held)
     }
 
     /// A field of the surface's grid, extended to the operator's grid: values not finite or beyond the window are
@@ -127,11 +126,11 @@ impl Window {
             *is_known = !known.is_empty();
             between(&known, width, |j, a, b, share| row[j] = row[a] + T::lit(share) * (row[b] - row[a]));
         }
-        let known = self.held.ranks().lists(known);
+        let known = self.held.lists(known);
         let known: Vec<usize> = (0..known.len()).filter(|&i| known[i]).collect();
         let mut sources: Vec<_> = (0..nx).map(|i| (i, i, 0.0)).collect();
         between(&known, nx, |i, a, b, share| sources[i] = (a, b, share));
-        let rows = self.held.rows_for(held, &self.whole.slab(), |i| [sources[i].0, sources[i].1]);
+        let rows = self.held.rows_for(held, &self.whole, |i| [sources[i].0, sources[i].1]);
         let mut extended = Array2::zeros(self.whole.field_shape());
         for (row, &(a, b, share)) in extended.rows_mut().into_iter().zip(&sources[self.whole.rows()]) {
             Zip::from(row).and(rows.row(a)).and(rows.row(b)).for_each(|to, &at_a, &at_b| {
@@ -143,11 +142,11 @@ impl Window {
 
     /// A field of the operator's grid, cropped to the surface's grid.
     pub(crate) fn crop<T: Real>(&self, field: &ArrayRef2<T>, absent: T) -> Array2<T> {
-        self.held.moved(self.cut(field, absent).into_array().into(), &self.grid.slab()).into_owned()
+        self.held.moved(self.cut(field, absent).into_array(), &self.grid).into_owned()
     }
 
     pub(crate) fn cut<A: Copy + Default + 'static>(&self, field: &ArrayRef2<A>, absent: A) -> Field<A> {
-        let mut cut = Field::filled(self.held.held(), absent);
+        let mut cut = Field::filled(self.held.field_shape(), absent);
         let field = ordered(field.view());
         for (nodes, own) in self.places() {
             cut.nodes_mut()[own].copy_from_slice(&field[nodes]);
@@ -155,7 +154,7 @@ impl Window {
         cut
     }
 
-    /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid.
+    /// A field of the surface's grid, in the rows of the operator's grid, on the operator's grid.
     pub(crate) fn place<A: Copy + Default + 'static>(&self, field: &Field<A>, elsewhere: A) -> Field<A> {
         let mut placed = Field::filled(self.whole.field_shape(), elsewhere);
         for (nodes, own) in self.places() {
@@ -164,14 +163,14 @@ impl Window {
         placed
     }
 
-    /// A field of the surface's grid in the rows of its own slab, from the rows of the operator's.
+    /// A field of the surface's grid in its own rows, from the rows of the operator's grid.
     pub(crate) fn release<A: Sent>(&self, held: Field<A>) -> Field<A> {
-        Field::of(self.held.moved(held.into_array().into(), &self.grid.slab()))
+        Field::of(self.held.moved(held.into_array(), &self.grid))
     }
 
-    /// The places of this process's runs on the operator's grid and on the surface's.
+    /// The places of the runs on the operator's grid and on the surface's.
     pub(crate) fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-        let [start, first] = [self.whole.slab(), self.held].map(|slab| slab.first_node());
+        let [start, first] = [&self.whole, &self.held].map(Grid::first_node);
         self.runs.iter().map(move |run| {
             let own = run.first - first;
             (run.nodes.start - start..run.nodes.end - start, own..own + run.nodes.len())
@@ -184,11 +183,11 @@ impl Window {
         let gap = ordered(gap.view());
         // with one value at absent nodes, then another
         let facing = |elsewhere: T| {
-            let mut facing = Field::filled(self.held.held(), elsewhere);
+            let mut facing = Field::filled(self.held.field_shape(), elsewhere);
             self.places().for_each(|(_, own)| facing.nodes_mut()[own.clone()].copy_from_slice(&gap[own]));
             facing
         };
-        all_finite_in(self.held, "starting gap", facing(T::zero()).view())?;
+        self.held.finite("starting gap", facing(T::zero()).view())?;
         Ok(self.extended(facing(T::nan()).view()))
     }
 }

@@ -34,7 +34,7 @@ impl<T: Real> PressedFlat<T> {
         surface.finite("plastic depth", depth)?;
         let negative = depth.iter().find(|&&depth| depth < T::zero());
         let refused = |&depth: &T| Error::non_negative("plastic depth", depth.widen()).map(|_| ());
-        surface.slab().agreed(negative.map_or(Ok(()), refused))?;
+        surface.agreed(negative.map_or(Ok(()), refused))?;
         Ok(self.place(Field::of(self.hold(depth)), T::zero()))
     }
 

@@ -104,8 +104,8 @@ impl Coarse {
             }
         };
         self.counts.fill(Count::default());
-        let (rows, first) = (self.grid.rows(), self.grid.slab().first_node());
-        // the rest of a row of blocks that begins in another slab
+        let (rows, first) = (self.grid.rows(), self.grid.first_node());
+        // the rest of a row of blocks that begins in the rows of another process
         let begun = rows.start % block.0;
         let (head, others) = field.nodes().split_at(((block.0 - begun) % block.0).min(rows.len()) * ny);
         let (before, after) = self.counts.split_at_mut(rows.start.div_ceil(block.0) * blocks.1);
@@ -115,7 +115,7 @@ impl Coarse {
         par::for_each(par::chunks(others, block.0 * ny).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
             count(nodes, 0, first + head.len() + i * block.0 * ny, counts);
         });
-        self.grid.slab().ranks().add_up(self.counts.as_flattened_mut());
+        self.grid.add_up(self.counts.as_flattened_mut());
 
         let share = (nx as f64 * ny as f64).recip();
         self.contact.fill(0.0);

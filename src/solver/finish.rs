@@ -201,14 +201,14 @@ impl<T: Real> Solution<T> {
     fn watch_edge(&mut self, law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>) {
         let (grid, report) = (self.grid, &mut self.report);
         let tractions = [largest(edge(&self.pressure, &grid)), largest(self.pressure.iter().copied())];
-        let [at_edge, largest] = tractions.map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
+        let [at_edge, largest] = tractions.map(|own| grid.greatest(own));
         let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
         // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
         let attract = !law.hints().zero && largest > HARDLY * noticeable(law);
         let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
         // what the tolerance leaves of the pressures
         let noise = report.tolerance * flat.stiffness * flat.rms_height;
-        let touches = grid.each(edge(&self.gap, &grid).any(|gap| gap <= T::zero())).contains(&true);
+        let touches = grid.any(edge(&self.gap, &grid).any(|gap| gap <= T::zero()));
         (report.edge_traction, report.reaches_edge) =
             (Some(share), !apart && (share > HARDLY && at_edge > noise || touches));
     }

@@ -165,7 +165,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     /// All of a field on the surface's grid, with a value where no surface faces the half-space.
     pub(super) fn on_surface<'f>(&self, field: &'f Field<T>, absent: T) -> CowArray<'f, T, Ix2> {
         match &self.flat.window {
-            Some(window) => window.held().whole_of(window.cut(field, absent).into_array()),
+            Some(window) => window.held().whole(window.cut(field, absent).into_array()),
             None => self.operators.state().grid().whole(&**field),
         }
     }

@@ -140,17 +140,17 @@ pub(super) fn given_start<T: Real>(
     grid.finite("starting gap", start.view())?;
     // without places, and without an end, the pass is several times as fast
     let some = wall.is_rigid() && start.fold(false, |some, &gap| some | (gap < T::zero()));
-    let mut nodes = start.iter().zip(grid.slab().first_node()..);
+    let mut nodes = start.iter().zip(grid.first_node()..);
     let find = || nodes.find(|&(&gap, node)| gap < T::zero() && flat.faces(node));
     let negative = some.then(find).flatten().map_or(Ok(()), |(gap, _)| {
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
-    grid.slab().agreed(negative)?;
+    grid.agreed(negative)?;
     let mut gap = Field::of(start);
     if let Load::Gap(mean) = load {
         let present = grid.mean(gap.view(), T::widen);
-        if !wall.projects() && grid.each(gap.iter().any(|&g| g < T::zero())).contains(&true) {
+        if !wall.projects() && grid.any(gap.iter().any(|&g| g < T::zero())) {
             // gaps of both signs may have hardly any mean
             gap.view_mut().mapv_inplace(|g| g + T::lit(mean - present));
         } else if present > 0.0 {
@@ -167,13 +167,13 @@ pub(super) fn check_start<T: Real, Lo: Real>(iterate: &Iterate<'_, T, Lo>) -> Re
     if iterate.energy().is_finite() && iterate.tally().sum_r.is_finite() {
         return Ok(());
     }
-    iterate.posed.operators.state().grid().slab().agreed(check_gaps(iterate))
+    iterate.posed.operators.state().grid().agreed(check_gaps(iterate))
 }
 
 fn check_gaps<T: Real, Lo: Real>(iterate: &Iterate<'_, T, Lo>) -> Result<()> {
     let law = iterate.posed.law();
     let mut value = [T::zero()];
-    let first = iterate.posed.operators.state().grid().slab().first_node();
+    let first = iterate.posed.operators.state().grid().first_node();
     let window = iterate.posed.flat.window.as_ref();
     let on_surface = |node| window.map_or(Some(node), |window| window.pieces(node..node + 1).next()?.1);
     for (node, gap) in (first..).zip(iterate.fields.gap.nodes()) {

@@ -17,8 +17,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// `before`; both are on the grid of the operator.
     pub(super) fn touch(&mut self, gap: &Array2<T>, before: Option<&Array2<bool>>) {
         let (flat, whole) = (self.flat, *self.operators.state().grid());
-        let mut neighbourhood =
-            Neighbourhood::none((flat.grid(&whole), flat.held(&whole)), flat.boundary.is_periodic());
+        let mut neighbourhood = Neighbourhood::none(flat.held(&whole), flat.boundary.is_periodic());
         self.mark_contacts(gap, &mut neighbourhood);
         neighbourhood.grow();
         if let Some(before) = before {

@@ -84,7 +84,7 @@ impl<T: Real> Stability<T> {
         from.check(&problem.parts(), &solver.constraint)?;
         let (grid, control) = (from.grid, self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
-        let largest = T::lit(grid.each(largest.widen()).into_iter().fold(0.0, f64::max));
+        let largest = T::lit(grid.greatest(largest.widen()));
         let amplitude = T::lit(PARTLY) * problem.law_on_grid().hints().range / largest;
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);

@@ -232,7 +232,7 @@ impl<'a, T: Real> Hessian<'a, T> {
 }
 
 fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Field<T> {
-    let (first, ny) = (grid.slab().first_node(), grid.shape().1);
+    let (first, ny) = (grid.first_node(), grid.shape().1);
     Field::from_fn(grid.field_shape(), |(i, j)| {
         let node = (first + i * ny + j) as u64;
         let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);

@@ -94,7 +94,7 @@ impl<T: Real> Watch<T> {
         Ok(saddle)
     }
 
-    /// The cosine of the angle between the mode and a change of the gap of a slab.
+    /// The cosine of the angle between the mode and a change of the gap.
     pub(crate) fn share(&self, change: &Array2<T>, grid: &Grid) -> f64 {
         let Some(mode) = &self.mode else { return 0.0 };
         let product =
@@ -103,7 +103,7 @@ impl<T: Real> Watch<T> {
         if share.is_finite() { share } else { 0.0 }
     }
 
-    /// Adds the mode to the gap of a slab, with the largest change given: signed as its `share` in another change, or
+    /// Adds the mode to the gap, with the largest change given: signed as its `share` in another change, or
     /// such that the gap closes at the first node where the mode is largest. Gaps stay above the `least`.
     pub(crate) fn displace(
         &self,
@@ -114,7 +114,7 @@ impl<T: Real> Watch<T> {
     ) {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
-        let top = T::lit(grid.each(top.widen()).into_iter().fold(0.0, f64::max));
+        let top = T::lit(grid.greatest(top.widen()));
         let own =
             mode.iter().find(|value| value.abs() >= T::lit(1.0 - LITTLE) * top).map_or(f64::NAN, |value| value.widen());
         let first = grid.each(own).into_iter().find(|value| !value.is_nan());

@@ -47,7 +47,7 @@ impl FourierSeries {
     /// [`Error::Memory`] if the memory does not suffice.
     pub fn new(grid: Grid) -> Result<Self> {
         // coefficients, and what the transform makes of them
-        grid.slab().afford("a surface from Fourier coefficients", 40)?;
+        grid.afford("a surface from Fourier coefficients", 40)?;
         let (nx, ny) = grid.shape();
         let shape = (ny.div_ceil(2), nx);
         Ok(Self { grid, half: Array2::zeros(shape), given: Array2::from_elem(shape, [false; 2]) })
@@ -115,7 +115,7 @@ impl FourierSeries {
                 Complex::new(unit * cosine, unit * sine)
             })
             .collect();
-        let (heights, _) = synthesise(self.grid.slab(), |n, column| {
+        let (heights, _) = synthesise(&self.grid, |n, column| {
             let known = self.half.outer_iter().nth(n).into_iter().flatten();
             column.iter_mut().zip(known).zip(&turns).for_each(|((z, known), turn)| *z = known * turn);
             for m in (1..nx.div_ceil(2)).filter(|_| n == 0) {

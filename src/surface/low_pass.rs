@@ -38,7 +38,7 @@ use crate::grid::Grid;
 pub fn low_pass(mut heights: Array2<f64>, lengths: (f64, f64), cut_off: f64) -> Result<Array2<f64>> {
     Error::positive("cut-off wavelength", cut_off)?;
     let grid = Grid::new(heights.dim(), lengths)?;
-    grid.slab().afford("a filtered map", 32)?;
+    grid.afford("a filtered map", 32)?;
     all_finite("heights", heights.view())?;
     // about the mean, so that a large datum costs no digits
     let mean = mean_of_finite(&heights);

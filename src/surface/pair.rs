@@ -50,7 +50,7 @@ impl Surface {
             return Err(Error::Value { name, value, requirement: "as on the surface on this side" });
         }
         let (x, y) = (in_nodes("shift along x", sx, dx, nx)?, in_nodes("shift along y", sy, dy, ny)?);
-        grid.slab().afford("the surface between two", 24)?;
+        grid.afford("the surface between two", 24)?;
         let other = other.whole();
         let mut facing = turned_over(other.heights(), (x.0, y.0));
         let absent = other.absent().map(|absent| turned_over(absent, (x.0, y.0)));

@@ -56,7 +56,7 @@ pub(crate) fn refine(heights: Array2<f64>, nodes: (usize, usize)) -> Result<Arra
 
 /// Heights on other nodes; the first node has moved by a share of the side.
 fn on_nodes(heights: Array2<f64>, nodes: (usize, usize), moved: impl Fn(usize, usize) -> f64) -> Result<Array2<f64>> {
-    Grid::new(nodes, (1.0, 1.0))?.slab().afford("a resampled map", 32)?;
+    Grid::new(nodes, (1.0, 1.0))?.afford("a resampled map", 32)?;
     all_finite("heights", heights.view())?;
     let resampled = |rows: &Array2<f64>, m: usize| {
         let by = moved(rows.ncols(), m);

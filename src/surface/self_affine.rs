@@ -95,9 +95,9 @@ impl SelfAffine {
     pub fn surface(&self, grid: Grid) -> Result<Surface> {
         let band = Band::new(self, &grid)?;
         // heights, spectrum, and what is made of them
-        grid.slab().afford("a random surface", 32)?;
+        grid.afford("a random surface", 32)?;
         let (nx, _) = grid.shape();
-        let (mut heights, sum) = synthesise(grid.slab(), |ky, column| {
+        let (mut heights, sum) = synthesise(&grid, |ky, column| {
             let mut sum = 0.0;
             for wave in band.waves(ky) {
                 let amplitude = self.draw(wave.kx, ky).scale(wave.density.sqrt());

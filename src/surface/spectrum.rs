@@ -136,7 +136,7 @@ impl Spectrum {
     /// The autocorrelation R(Δx) = ⟨h(x) h(x + Δx)⟩ about the mean height, of shape (Nx, Ny). The lag Δx is the
     /// coordinate on the grid, zero at the node `(Nx / 2, Ny / 2)`.
     pub fn autocorrelation(&self) -> Array2<f64> {
-        let (mut field, _) = synthesise(self.grid.slab(), |ky, column| {
+        let (mut field, _) = synthesise(&self.grid, |ky, column| {
             column.iter_mut().zip(self.powers.row(ky)).for_each(|(z, power)| *z = Complex::from(*power));
             0.0
         });

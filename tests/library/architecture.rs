@@ -91,6 +91,10 @@ fn modules_use_only_what_stands_above_them_and_in_no_circle() {
                     uses.entry(module.clone()).or_default().insert(name);
                 }
             }
+            // others ask the grid, and need not know that processes share it
+            let rows = ["elastic", "fft", "field", "grid", "slab"];
+            let knows = folder == "src" && used(&text).contains(&"slab".to_owned());
+            assert!(!knows || rows.contains(&module.as_str()), "{}: slabs are for {rows:?}", inside.display());
             for (foreign, home) in [("rayon::", "par"), ("mpi::", "ranks")] {
                 let free = folder != "src" || module == home;
                 assert!(free || !text.contains(foreign), "{}: {foreign} is for {home}", inside.display());
