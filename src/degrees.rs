@@ -23,7 +23,7 @@ pub(crate) const MOSTLY: f64 = 0.7;
 pub(crate) const TWICE: f64 = 2.0;
 
 /// A first step into the unknown, as a share of the way that is known.
-pub(crate) const FIRST_STEP: f64 = 1.0 / 16.0;
+pub(crate) const FIRST_STEP: f64 = 0.0625;
 
 /// A distance that is far: in ranges of adhesion, in steps, in stiffnesses of the shortest wave.
 pub(crate) const FAR: f64 = 10.0;

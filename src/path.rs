@@ -137,8 +137,8 @@ pub struct Path<T> {
     failed: bool,
 }
 
-/// The number of further solves after one that did not converge, where the step cannot be halved.
-const RETRIES: usize = 3;
+/// The most further solves at a load: after one that did not converge, where the step cannot be halved, and from a saddle.
+const RETRIES: usize = 4;
 
 impl<T: Real> Path<T> {
     /// The path through `loads`, from the first on.

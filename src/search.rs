@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::{Real, once};
 use crate::solver::{Begin, Branch, Iteration, Method, Observer, Place, Solution, Solved, Solver, Start, Status};
+use crate::sweep::FAR;
 
 mod axis;
 mod bracket;
@@ -24,9 +25,6 @@ once! {
         problem: &'a mut Problem<T>, fraction: f64, observe: Observer<'a>,
     ) -> Result<FoundContact<T>> = [within] ContactSearch::find;
 }
-
-/// The growth of the logarithm of the load above which a solve without adhesion starts anew.
-const LONG: f64 = 0.7;
 
 /// The most solves of a search; a bracket is halved at least with every other one.
 pub(crate) const MOST_SOLVES: usize = 60;
@@ -249,7 +247,7 @@ impl<T: Real> ContactSearch<T> {
 
     /// Whether a load without adhesion presses so much more than the last one that its gap says little.
     fn is_long_way(&self, x: f64, axis: Axis) -> bool {
-        !axis.adheres() && self.points.last().is_some_and(|last| x - last.x > LONG)
+        !axis.adheres() && self.points.last().is_some_and(|last| x - last.x > FAR.ln())
     }
 
     fn remember(&mut self, point: Point) {

@@ -78,7 +78,7 @@ pub struct Sweep<T> {
 }
 
 /// The ratio of two loads above which the second one starts anew.
-const FAR: f64 = 4.0;
+pub(crate) const FAR: f64 = 4.0;
 
 impl<T> Default for Sweep<T> {
     fn default() -> Self {

@@ -4,9 +4,11 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::field::found;
 
-/// The number of terms that are stored before they are summed: a loop without sums vectorises. They are few, as each chunk
-/// clears their place.
+/// The number of modes of a spectrum with terms that are stored before they are summed: a loop without sums vectorises.
 pub(crate) const BLOCK: usize = 64;
+
+/// The number of nodes with terms that `sums!` stores before it sums: few, as each chunk clears their place.
+pub(crate) const NODES: usize = 32;
 
 /// Sums that run side by side.
 pub(crate) const LANES: usize = 8;
@@ -77,14 +79,14 @@ macro_rules! sums {
         $crate::vector::vectorised(
             #[inline(always)]
             move || {
-                use $crate::vector::{Aligned, BLOCK, LANES};
+                use $crate::vector::{Aligned, LANES, NODES};
                 const COUNT: usize = [$(stringify!($field)),*].len();
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut block) = ([[0.0_f64; LANES]; COUNT], Aligned([[0.0_f64; BLOCK]; COUNT]));
-                $(let (mut least, mut $least) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; BLOCK]));)?
+                let (mut lanes, mut block) = ([[0.0_f64; LANES]; COUNT], Aligned([[0.0_f64; NODES]; COUNT]));
+                $(let (mut least, mut $least) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; NODES]));)?
                 let mut start = 0;
                 while start < len {
-                    let size = BLOCK.min(len - start);
+                    let size = NODES.min(len - start);
                     $(let $read = &$read[start..start + size];)*
                     $(let $write = &mut $write[start..start + size];)*
                     let block = &mut block.0;
@@ -97,20 +99,20 @@ macro_rules! sums {
                             block[s][$i] = terms[s];
                         }
                     }
-                    if size < BLOCK {
+                    if size < NODES {
                         for s in 0..COUNT {
                             block[s][size..].fill(0.0);
                         }
                         $($least[size..].fill(f64::INFINITY);)?
                     }
                     for s in 0..COUNT {
-                        for k in 0..BLOCK / LANES {
+                        for k in 0..NODES / LANES {
                             for l in 0..LANES {
                                 lanes[s][l] += block[s][k * LANES + l];
                             }
                         }
                     }
-                    $(for k in 0..BLOCK / LANES {
+                    $(for k in 0..NODES / LANES {
                         for l in 0..LANES {
                             let low = $least[k * LANES + l];
                             least[l] = if low < least[l] { low } else { least[l] };

@@ -157,6 +157,21 @@ pub(super) struct Loops {
 pub(super) const LOOP: Loops =
     Loops { beyond: [1.35, 1.0], beyond_places: 0.5, scatter: 0.24, nodes: 128.0, standard: 2.0, left: 0.7 };
 
+/// The cost that a solve is expected to have, by the cost on other surfaces.
+pub(super) struct Cost {
+    /// The numbers of 8 bytes that a solve holds for each node at most, with the numbers of the surface and of its
+    /// refinement.
+    pub numbers: f64,
+    /// The numbers that a path takes besides: its gaps, and the softest mode.
+    pub of_path: f64,
+    /// The operator applications of a solve, those on coarser grids included.
+    pub applications: f64,
+    /// The factor by which expected errors may be too large where an accuracy is refused.
+    pub doubt: f64,
+}
+
+pub(super) const COST: Cost = Cost { numbers: 12.0, of_path: 24.0, applications: 40.0, doubt: 3.0 };
+
 /// Heights between the given nodes that decide the contact: white noise has a ratio of areas on the given grid and on one
 /// of twice as many nodes of 1.27 with 268 nodes in contact and of 1.67 with 37, other rough surfaces of at most 1.1, and
 /// plateaus with flanks of eight nodes of 1.46 with 137.

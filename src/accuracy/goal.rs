@@ -1,5 +1,6 @@
 use std::ops::ControlFlow;
 
+use super::fitted::COST;
 use super::refine::twice;
 use super::{GridError, Quantity, adhesion, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho};
@@ -39,16 +40,6 @@ pub(super) const MOST_DOUBLINGS: i32 = 40;
 
 /// The memory that a solve may take by default, in bytes: 4 GiB.
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
-
-/// The numbers of 8 bytes that a solve holds for each node at most, with the numbers of the surface and of its
-/// refinement.
-pub(super) const NUMBERS: f64 = 12.0;
-
-/// The expected operator applications of a solve, those on coarser grids included.
-const APPLICATIONS: f64 = 40.0;
-
-/// The factor by which expected errors may be too large where an accuracy is refused.
-pub(super) const DOUBT: f64 = 3.0;
 
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
@@ -207,9 +198,9 @@ impl Accuracy {
         let nodes = operator.grid().nodes() as f64;
         let (nx, ny) = twice(surface.grid().shape());
         let growth = (nx * ny) as f64 / surface.grid().nodes() as f64;
-        let bytes = |refinements: i32| 8.0 * NUMBERS * nodes * growth.powi(refinements);
+        let bytes = |refinements: i32| 8.0 * COST.numbers * nodes * growth.powi(refinements);
         let shape = |refinements| (0..refinements).fold(surface.grid().shape(), |shape, _| twice(shape));
-        let least = needed(DOUBT);
+        let least = needed(COST.doubt);
         if least > 0 && bytes(least) > self.memory {
             let most = (0..least).rev().find(|&refinements| bytes(refinements) <= self.memory).unwrap_or(0);
             let finer = f64::from(most).exp2();
@@ -227,7 +218,7 @@ impl Accuracy {
                 },
             });
         }
-        let applications = APPLICATIONS * growth.powi(refinements);
+        let applications = COST.applications * growth.powi(refinements);
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
     }
 

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::fitted::LOOP;
-use super::goal::{COARSEST, DOUBT, FIRST, MOST_DOUBLINGS, NUMBERS, is_refinable, on_coarse, on_twice};
+use super::fitted::{COST, LOOP};
+use super::goal::{COARSEST, FIRST, MOST_DOUBLINGS, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, LoopLimit, Quantity};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
@@ -14,9 +14,6 @@ use crate::nested::coarsened;
 use crate::path::PathEnd;
 use crate::real::Real;
 use crate::surface::Surface;
-
-/// The numbers of 8 bytes that a path takes for each node, besides those of a solve: its gaps, and the softest mode.
-const KEPT: f64 = 24.0;
 
 /// The relative error that is left of errors of the grid and of its jumps on a grid that is so many times doubled.
 fn left([of_grid, of_jumps]: [f64; 2], finer: i32) -> f64 {
@@ -99,7 +96,7 @@ impl Accuracy {
         let coarser = self.grids_below(surface, &*law)?;
         let periodic = operator.boundary().is_periodic();
         let padding = operator.grid().nodes() as f64 / surface.grid().nodes() as f64;
-        let bytes = |(nx, ny): (usize, usize)| 8.0 * (NUMBERS + KEPT) * padding * nx as f64 * ny as f64;
+        let bytes = |(nx, ny): (usize, usize)| 8.0 * (COST.numbers + COST.of_path) * padding * nx as f64 * ny as f64;
         let (mut surface, mut law, mut levels) = (surface.clone(), SharedLaw(law), Vec::new());
         let mut refinable = is_refinable(&surface, &*law);
         for coarse in coarser {
@@ -202,7 +199,7 @@ impl Accuracy {
             (0..MOST_DOUBLINGS).find(|&finer| reached(finer) <= smaller * self.target).unwrap_or(MOST_DOUBLINGS)
         };
         let finer = |count: i32| (0..count).fold(shape, |shape, _| twice(shape));
-        let least = needed(DOUBT);
+        let least = needed(COST.doubt);
         if least == 0 || bytes(finer(least)) <= self.memory {
             return Ok(());
         }

@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::fitted::PULL_OFF;
-use super::goal::{FIRST, NUMBERS, is_refinable, on_coarse, on_twice};
+use super::fitted::{COST, PULL_OFF};
+use super::goal::{FIRST, is_refinable, on_coarse, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, GridError, NoEstimate, adhesion, observed_order};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
@@ -162,7 +162,7 @@ impl Accuracy {
             searches.tensions.push(-found.solution.report.mean_pressure);
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
-            let bytes = |doubled: i32| 8.0 * NUMBERS * nodes as f64 * growth.powi(doubled);
+            let bytes = |doubled: i32| 8.0 * COST.numbers * nodes as f64 * growth.powi(doubled);
             let few = found.few_nodes(&surface).filter(|_| hints.of_grid && level.is_some());
             let few = few.map(|(nodes, finer)| too_few(&surface, nodes, finer, bytes));
             levels.extend(level.filter(|_| few.is_none()));

@@ -1,6 +1,7 @@
 //! A refinement: solves on finer and finer grids until an accuracy is reached.
 
-use super::goal::{NUMBERS, is_refinable, on_twice};
+use super::fitted::COST;
+use super::goal::{is_refinable, on_twice};
 use super::refine::{is_of_interpolation, overshoots, refined, twice};
 use super::{Accuracy, AccurateSolution, GridError, resolves_adhesion};
 use crate::adhesion::SharedLaw;
@@ -156,7 +157,7 @@ impl<T: Real> Finest<T> {
         let shape = twice(surface.grid().shape());
         // the operator's grid grows as the grid of the surface
         let nodes = whole.as_ref().map_or(surface.grid(), |(grid, _)| grid).nodes() as f64;
-        let bytes = 8.0 * NUMBERS * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
+        let bytes = 8.0 * COST.numbers * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
         if bytes > wanted.memory {
             return Ok(Next::TooLarge(shape, bytes));
         }

@@ -14,8 +14,6 @@ const NODES: usize = 1024;
 /// The number of nodes of a varying law at which functions are compared at many gaps.
 const PLACES: usize = 16;
 
-const STRIDE: usize = 2;
-
 const ASKED: [[bool; 3]; 6] = [
     [true, false, false],
     [false, true, false],
@@ -228,13 +226,13 @@ impl<T: Real> Checked<'_, T> {
     /// Compares a law that varies with itself on the coarser grid of every other node.
     fn coarseness(&self) -> Result<()> {
         let Some((nx, ny)) = self.hints.shape else { return Ok(()) };
-        let (rows, columns) = (nx.div_ceil(STRIDE), ny.div_ceil(STRIDE));
-        let coarse = self.law.adapted(Discretisation::Coarse(STRIDE, STRIDE));
+        let (rows, columns) = (nx.div_ceil(2), ny.div_ceil(2));
+        let coarse = self.law.adapted(Discretisation::Coarse(2, 2));
         let law = coarse.as_deref().unwrap_or(self.law);
         let coarse = Checked { law, hints: law.hints(), ..*self };
         self.check_shape("coarsened adhesion law", coarse.hints, Some((rows, columns)))?;
         for node in (0..rows * columns).step_by((rows * columns).div_ceil(NODES).max(1)) {
-            let (fine, gap) = (STRIDE * (node / columns * ny + node % columns), self.gap(node % (GAPS + 1)));
+            let (fine, gap) = (2 * (node / columns * ny + node % columns), self.gap(node % (GAPS + 1)));
             let (found, expected) = (coarse.at(node, gap), self.at(fine, gap));
             let differs = (0..3).find(|&order| found[order] != expected[order] && !expected[order].is_nan());
             if let Some(order) = differs {

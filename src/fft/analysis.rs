@@ -111,7 +111,7 @@ mod tests {
             // one wave along both axes, where there is room for it
             let (k0, k1) = (n0.min(2) - 1, (n1 - 1) / 2);
             let amplitude = Complex::new(0.25, if k1 > 0 { -0.5 } else { 0.0 });
-            let (wave, returned) = synthesise(Slab::whole((n0, n1)), |k, column| {
+            let (wave, returned) = synthesise(&Grid::new((n0, n1), (1.0, 1.0)).unwrap(), |k, column| {
                 if k == k1 {
                     column[k0] += amplitude;
                     if k1 == 0 {

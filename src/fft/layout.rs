@@ -11,9 +11,6 @@ use crate::real::Real;
 use crate::slab::{Slab, TILE};
 use crate::vector::vectorised;
 
-/// The length of a run of twiddles that is read from memory; a factor turns it into any other run.
-const RUN: usize = 32;
-
 /// The layout of a field: the plane as which it is transformed, and the places of its modes in the half spectrum.
 ///
 /// A plane keeps its shape, or has its axes exchanged where its columns do not fill a tile. A line of A·B nodes, A the
@@ -107,7 +104,7 @@ fn divisor(n: usize) -> usize {
     (1..=n.isqrt()).rev().find(|&divisor| n.is_multiple_of(divisor)).unwrap_or(1)
 }
 
-/// The twiddles exp(−2πi bk/n) of row b, column k, for a line's half spectrum: the first [`RUN`] of each column, and
+/// The twiddles exp(−2πi bk/n) of row b, column k, for a line's half spectrum: the first [`TILE`] of each column, and
 /// behind them the factors from one run to the next.
 #[derive(Debug)]
 pub(super) struct Twiddles<T>(Field<Complex<T>>);
@@ -116,8 +113,8 @@ impl<T: Real> Twiddles<T> {
     pub(super) fn new(layout: &Layout) -> Option<Self> {
         let ((columns, rows), n) = (layout.spectrum(), layout.shape.0 * layout.shape.1);
         layout.folded.then(|| {
-            Self(Field::from_fn((columns, RUN + rows.div_ceil(RUN)), |(k, i)| {
-                let row = if i < RUN { i } else { RUN * (i - RUN) };
+            Self(Field::from_fn((columns, TILE + rows.div_ceil(TILE)), |(k, i)| {
+                let row = if i < TILE { i } else { TILE * (i - TILE) };
                 let (sin, cos) = (TAU * ((row * k) % n) as f64 / n as f64).sin_cos();
                 Complex::new(T::lit(cos), T::lit(-sin))
             }))
@@ -126,12 +123,12 @@ impl<T: Real> Twiddles<T> {
 
     /// Multiplies column `k` by its twiddles, or divides it by them.
     pub(super) fn turn(&self, k: usize, column: &mut [Complex<T>], back: bool) {
-        let (run, runs) = contiguous(self.0.row(k).to_slice()).split_at(RUN);
+        let (run, runs) = contiguous(self.0.row(k).to_slice()).split_at(TILE);
         let sign = if back { -T::one() } else { T::one() };
         vectorised(
             #[inline(always)]
             move || {
-                for (modes, &first) in column.chunks_mut(RUN).zip(runs) {
+                for (modes, &first) in column.chunks_mut(TILE).zip(runs) {
                     for (z, &by) in modes.iter_mut().zip(run) {
                         let turn = first * by;
                         *z *= Complex::new(turn.re, sign * turn.im);

@@ -1,16 +1,13 @@
 //! The departure of a path from a branch of saddles.
 
-use super::Path;
 use super::bench::Bench;
+use super::{Path, RETRIES};
 use crate::degrees::PARTLY;
 use crate::error::Result;
 use crate::problem::{Control, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Begin, Place, Solution, Solved, Start, Status};
 use crate::stability::{Near, Saddle};
-
-/// The largest number of saddles that are left one after the other at one load.
-const SADDLES: usize = 4;
 
 impl<T: Real> Path<T> {
     /// Whether a state is a saddle at its mean gap, of the law that the path follows.
@@ -42,7 +39,7 @@ impl<T: Real> Path<T> {
         let share = moved.map_or(0.0, |moved| self.watch.share(&moved, &grid));
         let drawn = share.abs() > PARTLY;
         let mut gap = from.gap.clone();
-        for _ in 0..SADDLES {
+        for _ in 0..RETRIES {
             let amplitude = PARTLY * bench.problem.law_on_grid().hints().range.widen();
             let least = bench.least();
             self.watch.displace((&mut gap, &grid), least, amplitude, drawn.then_some(share));
