@@ -27,6 +27,7 @@ TITLES = {
     "choosing": "Accuracy",
     "cluster": "Clusters",
     "comparison": "Projection, penalty, Uzawa",
+    "constants": "Constants",
     "driver": "The solver",
     "laws": "Adhesion laws",
     "own_constraint": "A constraint of your own",

@@ -15,6 +15,7 @@
 //! | [`paper_checked`] | the paper's misprints |
 //! | [`cluster`] | job scripts for studies, and solves on several processes by MPI |
 //! | [`driver`] | the energy, its minimisation, the certificate, one iteration step by step, and every constant in it |
+//! | [`constants`] | the constants of all other rooms, and what fails without each |
 //! | [`architecture`] | the layers of the crate, the way of the data, and places for new parts |
 //!
 //! The code on these pages is run by the tests.
@@ -40,4 +41,5 @@ page!(comparison);
 page!(paper_checked);
 page!(cluster);
 page!(driver);
+page!(constants);
 page!(architecture);

@@ -8,10 +8,9 @@ use crate::error::{Breach, Error, Place, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 
-/// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
-const POWERS: usize = 20;
-
-const DIMENSION: usize = 20;
+/// The applications of compliance and stiffness that look for the softest and the stiffest wave, and the dimension of a
+/// coarse space that is checked: enough to find what is broken.
+const ENOUGH: usize = 20;
 
 /// A check of an elastic operator against the contract of [`ElasticOperator`], for a test of yours.
 ///
@@ -154,7 +153,7 @@ impl<T: Real> Check<'_, T> {
                 let single = 64.0 * f64::from(f32::EPSILON) * stiffest;
                 holds("pressure in single precision", difference, 0.0, single)?;
             }
-            space = spectral.coarse_space(DIMENSION);
+            space = spectral.coarse_space(ENOUGH);
             spectral.release_memory();
         }
         self.operator.pressure(self.a.view(), self.of_b.view_mut())?;
@@ -190,7 +189,7 @@ impl<T: Real> Check<'_, T> {
             [("softest stiffness", softest, true), ("stiffest stiffness", stiffest, false)]
         {
             let (mut x, mut quotient) = (self.centred(), bound);
-            for _ in 0..POWERS {
+            for _ in 0..ENOUGH {
                 let size = self.product(&x, &x).sqrt();
                 x.mapv_inplace(|x| x / T::lit(size));
                 self.operator.pressure(x.view(), self.of_a.view_mut())?;
