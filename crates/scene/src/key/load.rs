@@ -86,57 +86,31 @@ struct LoadKind {
     make: fn(f64, f64) -> Load,
 }
 
+/// A kind of load by its keys: the key of one load, and of a list in `LoadsKeys` or in another list.
+macro_rules! kind {
+    ($one:ident, $many:ident, $make:expr) => {
+        kind!($one, $many, |keys, _| keys.$many, $make)
+    };
+    ($one:ident, $many:ident, $listed:expr, $make:expr) => {
+        LoadKind {
+            one: stringify!($one),
+            many: stringify!($many),
+            given: |keys| keys.$one,
+            listed: $listed,
+            make: $make,
+        }
+    };
+}
+
 /// The kinds of loads.
 static KINDS: [LoadKind; 7] = [
-    LoadKind {
-        one: "mean_gap",
-        many: "mean_gaps",
-        given: |keys| keys.mean_gap,
-        listed: |keys, _| keys.mean_gaps,
-        make: |gap, _| Load::Held(Control::MeanGap(gap)),
-    },
-    LoadKind {
-        one: "mean_pressure",
-        many: "mean_pressures",
-        given: |keys| keys.mean_pressure,
-        listed: |keys, _| keys.mean_pressures,
-        make: |pressure, _| Load::Held(Control::MeanPressure(pressure)),
-    },
-    LoadKind {
-        one: "normal_force",
-        many: "normal_forces",
-        given: |keys| keys.normal_force,
-        listed: |keys, _| keys.normal_forces,
-        make: |force, _| Load::Held(Control::Force(force)),
-    },
-    LoadKind {
-        one: "approach",
-        many: "approaches",
-        given: |keys| keys.approach,
-        listed: |keys, _| keys.approaches,
-        make: |approach, _| Load::Held(Control::Approach(approach)),
-    },
-    LoadKind {
-        one: "spring_position",
-        many: "spring_positions",
-        given: |keys| keys.spring_position,
-        listed: |keys, _| keys.spring_positions,
-        make: |rest, stiffness| Load::Held(Control::Spring { stiffness, rest }),
-    },
-    LoadKind {
-        one: "reduced_pressure",
-        many: "reduced_pressures",
-        given: |keys| keys.reduced_pressure,
-        listed: |keys, _| keys.reduced_pressures,
-        make: |ratio, _| Load::Reduced(ratio),
-    },
-    LoadKind {
-        one: "contact_fraction",
-        many: "contact_fractions",
-        given: |keys| keys.contact_fraction,
-        listed: |_, keys| keys.contact_fractions,
-        make: |fraction, _| Load::Fraction(fraction),
-    },
+    kind!(mean_gap, mean_gaps, |gap, _| Load::Held(Control::MeanGap(gap))),
+    kind!(mean_pressure, mean_pressures, |pressure, _| Load::Held(Control::MeanPressure(pressure))),
+    kind!(normal_force, normal_forces, |force, _| Load::Held(Control::Force(force))),
+    kind!(approach, approaches, |approach, _| Load::Held(Control::Approach(approach))),
+    kind!(spring_position, spring_positions, |rest, stiffness| Load::Held(Control::Spring { stiffness, rest })),
+    kind!(reduced_pressure, reduced_pressures, |ratio, _| Load::Reduced(ratio)),
+    kind!(contact_fraction, contact_fractions, |_, keys| keys.contact_fractions, |share, _| Load::Fraction(share)),
 ];
 
 impl Entries {
