@@ -90,8 +90,9 @@ fn soften<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<()> {
     descent.iterate.refresh()
 }
 
-/// Continues with the law itself after the smoothed one. A given start is on a branch, which ends where the
-/// smoothed law lets go. A solve that is cut short keeps its gap.
+/// Continues with the problem itself, once [`soften`] has put springs in the place of a rigid wall: the law itself takes
+/// the place of the smoothed one. A given start is on a branch, which ends where the smoothed law lets go. A solve that is
+/// cut short keeps its gap.
 fn sharpen<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, end: &End) -> Result<()> {
     descent.iterate.posed.stage = Stage::SOLUTION;
     if descent.goes_on(end) && descent.iterate.posed.branch.is_some() && descent.proof().is_adrift() {
