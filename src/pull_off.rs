@@ -29,13 +29,13 @@ once! {
 /// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
 ///
 /// The tension grows, each solve from the gap under the greatest tension borne, until the surfaces come apart
-/// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is `tolerance`
-/// wide. A loss counts only from a state within the tolerance of the lost tension: from a farther state it may be a
-/// jump that shorter steps avoid, and is tried again from a closer state. Contacts that are lost on the way are lost
-/// under the load, as on a soft spring. Before, the surfaces are pressed flat, as on the branch of unloading
-/// ([`Branch`]), or to a `preload`. On the branch of unloading the pull-off is the largest tension with an equilibrium,
-/// if the traction of the law falls with the gap. Where the pull-off is expected between two tensions, the search begins there,
-/// with rough solves; the last solve has the tolerance of the solver.
+/// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is
+/// `tolerance` wide. A loss counts only from a state within the tolerance of the lost tension: from a farther state
+/// it may be a jump that shorter steps avoid, and is tried again from a closer state. Contacts that are lost on the
+/// way are lost under the load, as on a soft spring. Before, the surfaces are pressed flat, as on the branch of
+/// unloading ([`Branch`]), or to a `preload`. On the branch of unloading the pull-off is the largest tension with
+/// an equilibrium, if the traction of the law falls with the gap. Where the pull-off is expected between two
+/// tensions, the search begins there. The last solve has the tolerance of the solver, solves before it are rough.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
@@ -144,7 +144,7 @@ impl PullOff {
         let branch = begin.is_default().then_some(branch);
         let bracket = Bracket::new(self.expected);
         let (solves, operator_applications, tolerance) = (0, 0, self.tolerance);
-        let is_rough = self.expected.is_some() && solver.settings.criterion == Criterion::EnergyNorm;
+        let is_rough = solver.settings.criterion == Criterion::EnergyNorm;
         let mut search =
             Search { solver, problem, observe, branch, tolerance, is_rough, bracket, solves, operator_applications };
         let preload = self.preload.unwrap_or(0.0);
@@ -290,10 +290,6 @@ impl<T: Real> Search<'_, T> {
             }
         }
         let is_narrow = self.bracket.is_narrow(self.tolerance);
-        if self.bracket.expected.is_none() {
-            return Ok(self.end(held, is_narrow));
-        }
-        // solves were rough
         let own = self.solver.settings.tolerance_in::<T>();
         let load = Control::MeanPressure(-self.bracket.greatest());
         let solved = self.solve_to(own, load, Begin::Found(held.place()))?;
