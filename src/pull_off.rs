@@ -275,32 +275,42 @@ impl<T: Real> Search<'_, T> {
 
     /// Narrows the bracket from a state that holds, with the first tension to try if none is expected.
     fn narrow(mut self, mut held: Solved<T>, first: f64) -> Result<FoundPullOff<T>> {
-        while self.solves < MOST_SOLVES && !self.bracket.is_narrow(self.tolerance) {
-            let tension = self.bracket.next(first, self.tolerance);
-            let tolerance = self.roughly(1.0 - self.bracket.greatest() / tension);
-            let solved = self.solve_to(tolerance, Control::MeanPressure(-tension), Begin::Found(held.place()))?;
-            if solved.is_settled() {
-                self.bracket.bear(Held { tension, ..Held::of(&solved.solution.report) });
-                held = solved;
-            } else if solved.solution.report.status == Status::Detached {
-                self.bracket.lose(tension);
-            } else {
-                held.solution.report.status = solved.solution.report.status;
-                return Ok(self.end(held, false));
+        let mut is_exact = !self.is_rough;
+        loop {
+            while self.solves < MOST_SOLVES && !self.bracket.is_narrow(self.tolerance) {
+                let tension = self.bracket.next(first, self.tolerance);
+                let tolerance = self.roughly(1.0 - self.bracket.greatest() / tension);
+                let solved = self.solve_to(tolerance, Control::MeanPressure(-tension), Begin::Found(held.place()))?;
+                if solved.is_settled() {
+                    self.bracket.bear(Held { tension, ..Held::of(&solved.solution.report) });
+                    (held, is_exact) = (solved, !self.is_rough);
+                } else if solved.solution.report.status == Status::Detached {
+                    self.bracket.lose(tension);
+                } else {
+                    held.solution.report.status = solved.solution.report.status;
+                    return Ok(self.end(held, false));
+                }
+            }
+            let is_narrow = self.bracket.is_narrow(self.tolerance);
+            if is_exact {
+                return Ok(self.end(held, is_narrow));
+            }
+            let own = self.solver.settings.tolerance_in::<T>();
+            let load = Control::MeanPressure(-self.bracket.greatest());
+            let solved = self.solve_to(own, load, Begin::Found(held.place()))?;
+            match solved.solution.report.status {
+                _ if solved.is_settled() => return Ok(self.end(solved, is_narrow)),
+                // rough states hold where exact ones do not
+                Status::Detached if self.solves < MOST_SOLVES => {
+                    self.is_rough = false;
+                    self.bracket.give_back();
+                }
+                status => {
+                    held.solution.report.status = status;
+                    return Ok(self.end(held, false));
+                }
             }
         }
-        let is_narrow = self.bracket.is_narrow(self.tolerance);
-        let own = self.solver.settings.tolerance_in::<T>();
-        let load = Control::MeanPressure(-self.bracket.greatest());
-        let solved = self.solve_to(own, load, Begin::Found(held.place()))?;
-        if solved.solution.report.status == Status::Detached && self.solves < MOST_SOLVES {
-            // rough states hold where exact ones do not
-            self.is_rough = false;
-            self.bracket.give_back();
-            return self.narrow(held, first);
-        }
-        let reached = is_narrow && solved.is_settled();
-        Ok(self.end(solved, reached))
     }
 
     fn end(self, held: Solved<T>, reached: bool) -> FoundPullOff<T> {

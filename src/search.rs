@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::problem::Problem;
 use crate::real::{Real, once};
 use crate::solver::{Begin, Branch, Iteration, Method, Observer, Place, Solution, Solved, Solver, Start, Status};
-use crate::sweep::FAR;
+use crate::sweep::ANEW;
 
 mod axis;
 mod bracket;
@@ -247,7 +247,7 @@ impl<T: Real> ContactSearch<T> {
 
     /// Whether a load without adhesion presses so much more than the last one that its gap says little.
     fn is_long_way(&self, x: f64, axis: Axis) -> bool {
-        !axis.adheres() && self.points.last().is_some_and(|last| x - last.x > FAR.ln())
+        !axis.adheres() && self.points.last().is_some_and(|last| x - last.x > ANEW.ln())
     }
 
     fn remember(&mut self, point: Point) {

@@ -6,6 +6,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView1, ArrayView2, Axis, CowArray, Ix2, Slice};
 
 use crate::error::{Error, Result};
+use crate::field::contiguous;
 use crate::ranks::{Ranks, Sent, Shares};
 
 /// The nodes of a chunk, which are summed one by one. The rounding of a sum of such sums grows with the length of a
@@ -58,7 +59,7 @@ impl<A> Rows<'_, A> {
 
     /// A row of a field that this crate made, which is contiguous by construction.
     pub(crate) fn line(&self, row: usize) -> &[A] {
-        self.row(row).to_slice().unwrap_or_default()
+        contiguous(self.row(row).to_slice())
     }
 }
 

@@ -78,7 +78,7 @@ pub struct Sweep<T> {
 }
 
 /// The ratio of two loads above which the second one starts anew.
-pub(crate) const FAR: f64 = 4.0;
+pub(crate) const ANEW: f64 = 4.0;
 
 impl<T> Default for Sweep<T> {
     fn default() -> Self {
@@ -253,7 +253,7 @@ fn ahead<T: Real>(
 fn is_far(before: Control, load: Control) -> bool {
     match (before, load) {
         (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
-            a >= 0.0 && b > FAR * a
+            a >= 0.0 && b > ANEW * a
         }
         _ => false,
     }

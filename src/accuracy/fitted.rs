@@ -1,4 +1,4 @@
-//! The factors of all estimates of this folder: each is fitted to the true errors of some scenes, none is derived.
+//! The factors of estimates of this folder: each is fitted to the true errors of some scenes, none is derived.
 
 use super::Quantity;
 

@@ -43,7 +43,7 @@ impl Neighbourhood {
         self.contact.nodes_mut().iter_mut().zip(self.near.nodes()).for_each(|(contact, &near)| *contact &= near);
     }
 
-    /// Whether [contacts](Self::contact) are not near others.
+    /// Whether [contacts](Self::contact) are not near others. All processes have to call it.
     pub(crate) fn has_others(&self) -> bool {
         let others = self.contact.nodes().iter().zip(self.near.nodes()).any(|(&contact, &near)| contact && !near);
         self.grid.any(others)
@@ -54,7 +54,7 @@ impl Neighbourhood {
         self.grid.first_node()
     }
 
-    /// Takes in the nodes next to the [contacts](Self::contact); whether any of them is new.
+    /// Takes in the nodes next to the [contacts](Self::contact); whether any of them is new. All processes have to call it.
     pub(crate) fn grow(&mut self) -> bool {
         let Self { grid, periodic, near, contact } = self;
         let ((nx, ny), (dx, dy), periodic) = (grid.shape(), grid.spacing(), *periodic);

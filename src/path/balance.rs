@@ -13,6 +13,9 @@ const LOCATED: f64 = 0.2;
 /// compared with all before are not located one by one.
 const MANY: f64 = 20.0;
 
+/// The share of the expected growth of the tension in a step, below which it may have had a maximum there.
+const GROWN: f64 = 0.25;
+
 /// The least and the largest ratio of two successive steps.
 const GROWTH: (f64, f64) = (0.5, 2.0);
 
@@ -102,7 +105,7 @@ impl Course {
     }
 
     /// The share of the largest tension so far by which the tension may have grown beyond it along the branch, somewhere
-    /// in a step, if that is more than the noise of an energy; and whether it fell in the step.
+    /// in a step, if that is more than the noise of an energy; and whether it grew by less than was to be expected.
     fn peak(&self, step: f64, after: f64, noise: f64) -> (f64, bool) {
         let ([.., last, here], Mode::Gap | Mode::Spring(_)) = (&self.places[..], self.mode) else {
             return (0.0, false);
@@ -112,6 +115,6 @@ impl Course {
         let largest = self.account.tension.max(-after);
         let beyond = p1 + growth - largest;
         let peak = if beyond * step.abs() > noise { beyond / largest } else { 0.0 };
-        (peak, -after < p1)
+        (peak, -after - p1 < GROWN * growth)
     }
 }

@@ -7,8 +7,8 @@ use crate::error::Result;
 use crate::problem::Control;
 use crate::real::Real;
 
-/// Takes the load of surfaces away in steps, each of which leaves the share of a first step, from the place under it, as a single step may part contacts that hold each
-/// other. Returns the state under no load; none if the last contacts do not hold.
+/// Takes the load of surfaces away in steps, since a single step may part contacts that hold each other. Each load is a
+/// sixteenth of the load before. Returns the state under no load; none if the last contacts do not hold.
 pub(crate) fn unload<T: Real>(
     mut solve: impl FnMut(Control, Begin<'_, T>) -> Result<Solved<T>>,
     load: Control,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use ndarray::Array2;
 
 use super::mean_of_finite;
-use crate::degrees::ALIKE;
+use super::self_affine::SLACK;
 use crate::error::{Error, Result};
 use crate::fft::filtered;
 use crate::field::all_finite;
@@ -44,7 +44,7 @@ pub fn low_pass(mut heights: Array2<f64>, lengths: (f64, f64), cut_off: f64) -> 
     let mean = mean_of_finite(&heights);
     heights.mapv_inplace(|h| h - mean);
     // a wavelength may be below the cut-off by rounding
-    let most = TAU / cut_off * (1.0 + ALIKE);
+    let most = TAU / cut_off * (1.0 + SLACK);
     let mut left = filtered(heights.view(), |kx, ky| grid.wave_number_x(kx).hypot(grid.wave_number_y(ky)) <= most)?;
     left.mapv_inplace(|h| h + mean);
     Ok(left)

@@ -8,11 +8,13 @@ use ndarray::Array2;
 use super::philox::uniform;
 use super::spectrum::is_line;
 use super::{Spectrum, Surface, centre};
-use crate::degrees::ALIKE;
 use crate::error::{Error, Result};
 use crate::fft::synthesise;
 use crate::grid::Grid;
 use crate::setters::setters;
+
+/// Relative slack at the ends of the spectrum, so that the rounding of Lx/Ly decides on no wave.
+pub(super) const SLACK: f64 = 1e-12;
 
 /// The amplitude of the roughness of a [`SelfAffine`] surface.
 #[non_exhaustive]
@@ -209,12 +211,12 @@ impl Band {
         // On a line Ly has no influence.
         let aspect = if grid.is_line() { f64::INFINITY } else { lx / ly };
         let limit = (0.5 * nx as f64).min(0.5 * ny as f64 * aspect);
-        if k_s >= limit * (1.0 - ALIKE) {
+        if k_s >= limit * (1.0 - SLACK) {
             return Err(Error::Unresolved { k_s, limit, shape: (nx, ny) });
         }
-        let longest = k_s * (1.0 + ALIKE);
+        let longest = k_s * (1.0 + SLACK);
         Ok(Self {
-            ends: [(k_l * (1.0 - ALIKE)).powi(2), k_r * k_r, longest * longest],
+            ends: [(k_l * (1.0 - SLACK)).powi(2), k_r * k_r, longest * longest],
             exponent: if is_line(grid) { -0.5 - hurst } else { -1.0 - hurst },
             aspect2: aspect * aspect,
             last: longest as i64,
