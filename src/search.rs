@@ -118,8 +118,9 @@ impl<T: Real> ContactSearch<T> {
         self.place.iter_mut().map(|place| &mut place.gap)
     }
 
-    /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
-    /// grid of the operator: processes that share a grid gather these as they do the fields.
+    /// Where surfaces have not parted, of a law that attracts [next to contacts
+    /// alone](crate::adhesion::Hints::touching), on the grid of the operator: processes that share a grid gather
+    /// these as they do the fields.
     #[doc(hidden)]
     pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
         self.place.iter_mut().filter_map(|place| place.not_parted.as_mut())

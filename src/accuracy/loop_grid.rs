@@ -60,9 +60,9 @@ impl Accuracy {
     /// `operator` is the operator on the grid of the surface.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] for a law that attracts everywhere, a quantity that is not of a loop, and a grid that has no coarser
-    /// one; [`Error::Value`] for an accuracy that is not positive; [`Error::Unaffordable`] if the grid is far beyond the
-    /// memory; those of `follow`.
+    /// [`Error::Unsuited`] for a law that attracts everywhere, a quantity that is not of a loop, and a grid that has
+    /// no coarser one; [`Error::Value`] for an accuracy that is not positive; [`Error::Unaffordable`] if the grid is
+    /// far beyond the memory; those of `follow`.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -147,8 +147,8 @@ impl Accuracy {
         of_grid.hypot(of_jumps)
     }
 
-    /// The surface on coarser grids, the coarsest first: those of half and of a quarter of the nodes along the sides, as far as
-    /// there are any, and coarser ones with no less than [`FIRST`].
+    /// The surface on coarser grids, the coarsest first: those of half and of a quarter of the nodes along the sides,
+    /// as far as there are any, and coarser ones with no less than [`FIRST`].
     fn grids_below<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> Result<Vec<Surface>> {
         surface.grid().refuse_shared("accuracy")?;
         Error::positive("accuracy", self.target)?;

@@ -24,8 +24,8 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// The limit from the values on a grid and on one of half as many nodes along the sides, with their own errors, a share of
-    /// their difference `beyond` the finer one, with the share of it that places take.
+    /// The limit from the values on a grid and on one of half as many nodes along the sides, with their own errors, a
+    /// share of their difference `beyond` the finer one, with the share of it that places take.
     fn of([fine, coarse]: [f64; 2], [own, coarser]: [f64; 2], (beyond, scatter): (f64, f64)) -> Self {
         let difference = fine - coarse;
         let value = fine + beyond * difference;
@@ -41,12 +41,13 @@ impl Limit {
 
 /// The limits of no range of a path by a law that attracts next to contacts alone, as [`Jkr`](crate::Jkr).
 ///
-/// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. With W₁ and W₂, the work on the
-/// grid and on the grid of half as many nodes along the sides, the limit is W₁ + 1.35 (W₁ − W₂). Where surfaces touch at
-/// several places one after the other, other places do so on another grid: the limit is then W₁ + (W₁ − W₂)/2, and its
-/// error has 24 % of the limit for that on 128 nodes along a side and fewer, and less in proportion to the root of the
-/// spacing on finer grids. Of 24 random surfaces the limit of the work by 64² and 128² nodes is within this error of the limit
-/// by 128² and 256² on 23 (`cargo run --release -p asperity-examples --example touch -- --surfaces 12 --seed 700`, and 760).
+/// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. With W₁ and W₂, the work
+/// on the grid and on the grid of half as many nodes along the sides, the limit is W₁ + 1.35 (W₁ − W₂). Where
+/// surfaces touch at several places one after the other, other places do so on another grid: the limit is then W₁ +
+/// (W₁ − W₂)/2, and its error has 24 % of the limit for that on 128 nodes along a side and fewer, and less in
+/// proportion to the root of the spacing on finer grids. Of 24 random surfaces the limit of the work by 64² and 128²
+/// nodes is within this error of the limit by 128² and 256² on 23
+/// (`cargo run --release -p asperity-examples --example touch -- --surfaces 12 --seed 700`, and 760).
 ///
 /// ```
 /// use std::sync::Arc;

@@ -24,7 +24,8 @@ pub enum NoEstimate {
     Strong(f64),
     /// Contacts reach the edge of a free boundary's window: each grid has another edge.
     Edge,
-    /// The shortest wave has so many nodes, and needs twice [`GridError::LEAST_NODES_PER_WAVE`](super::GridError::LEAST_NODES_PER_WAVE).
+    /// The shortest wave has so many nodes, and needs twice
+    /// [`GridError::LEAST_NODES_PER_WAVE`](super::GridError::LEAST_NODES_PER_WAVE).
     Waves(f64),
     /// The grid of half as many nodes along the sides tells no pull-off.
     OneGrid,

@@ -249,8 +249,8 @@ fn too_few(surface: &Surface, nodes: f64, finer: f64, bytes: impl Fn(i32) -> f64
     NoEstimate::FewNodes { nodes, needed, bytes: bytes(doubled) }
 }
 
-/// The tensions between which the pull-off on the next finer grid is expected, from the pull-offs on coarser grids: it changes
-/// by as much as from grid to grid before, or by half as much.
+/// The tensions between which the pull-off on the next finer grid is expected, from the pull-offs on coarser grids:
+/// it changes by as much as from grid to grid before, or by half as much.
 fn expected_on_finer(tensions: &[f64], tolerance: f64) -> Option<[f64; 2]> {
     let (fine, change) = match *tensions {
         [.., coarse, fine] => (fine, (fine / coarse).clamp(0.5, 2.0)),

@@ -20,7 +20,8 @@ once! {
 /// The excess area of a contact map per edge, in cells: (π − 1 + ln 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
-/// The process zone at the edge of a contact, by a law that has the range of the grid; fitted to the scenes of `--example jkr`.
+/// The process zone at the edge of a contact, by a law that has the range of the grid; fitted to the scenes of
+/// `--example jkr`.
 struct Zone {
     /// The width by the adhesive energy, in nodes for each side of a cell.
     width: f64,
