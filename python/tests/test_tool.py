@@ -1,4 +1,4 @@
-"""Surfaces and preparations from the tool and from Python: the same bits, and the same words."""
+"""Surfaces, preparations and laws from the tool and from Python: the same bits, and the same words."""
 
 import json
 import pickle
@@ -76,3 +76,40 @@ def test_a_preparation_has_the_heights_and_the_log_of_the_tool(tmp_path, tool, r
     assert [f"{step['step']}: {step['what']}" for step in json.loads(told.stdout)["steps"]] == list(made.log)
     assert len(made.log) == 13 and pickle.loads(pickle.dumps(made)).log == made.log
     assert asperity.prepare(made, flip=True).log[:13] == made.log
+
+
+WORK, REACH = 2e-5, 8e-3
+GAPS, TRACTIONS = [0.0, 4e-3, 1.6e-2], [2.5e-3, 1.5e-3, 0.0]
+#: Works of adhesion that differ over the surface.
+WORKS = np.linspace(0.0, 1.0, 64)[:, None] * np.linspace(1.0, 0.5, 64) * WORK
+GIVEN = ["--work-of-adhesion", WORK, "--range", REACH]
+WITHIN = asperity.CutOff(asperity.VanDerWaals(1e-7, REACH), 0.05)
+VARYING = asperity.Varying(asperity.Exponential(WORKS.max(), REACH), WORKS)
+#: Laws and walls of the tool by its options, next to objects of Python.
+# fmt: off
+OBJECTS = [
+    ("exponential", GIVEN, asperity.Exponential(WORK, REACH), "hard"),
+    ("maugis-dugdale", GIVEN, asperity.MaugisDugdale(WORK, REACH), "hard"),
+    ("lennard-jones", GIVEN, asperity.LennardJones(WORK, REACH, cut=True), "hard"),
+    ("power", [*GIVEN, "--exponent", 3], asperity.PowerLaw(WORK, REACH, 3.0), "hard"),
+    ("van-der-waals", ["--hamaker", 1e-7, "--range", REACH, "--cut-off", 0.05], WITHIN, "hard"),
+    ("table", ["--law-table", "law.txt"], asperity.Tabulated(GAPS, TRACTIONS), "hard"),
+    ("exponential", ["--work-of-adhesion-map", "works.npy", "--range", REACH], VARYING, "hard"),
+    ("morse", [*GIVEN, "--wall", "none"], asperity.Morse(WORK, REACH), "none"),
+    ("none", ["--wall", "penalty", "--wall-stiffness", 500], None, asperity.Penalty(500.0)),
+    ("none", ["--wall", "uzawa", "--wall-stiffness", 500], None, asperity.Uzawa(500.0)),
+]
+# fmt: on
+
+
+@pytest.mark.parametrize(("name", "options", "law", "wall"), OBJECTS)
+def test_fields_by_objects_are_those_of_the_tool(tmp_path, tool, rough, name, options, law, wall):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    np.save(tmp_path / "works.npy", WORKS)
+    np.savetxt(tmp_path / "law.txt", np.column_stack([GAPS, TRACTIONS]))
+    scene = ["--heights", "heights.npy", "--lengths", 2, 2, "--mean-pressure", 0.02, "--precision", "f32"]
+    asked(tool, tmp_path, "solve", *scene, "--no-pictures", "--out", "out", "--law", name, *options)
+    given = {"mean_pressure": 0.02, "law": law, "wall": wall, "precision": "f32"}
+    solution = asperity.solve(rough.heights, (2.0, 2.0), **given)
+    for field in ("gap", "pressure", "contact_pressure"):
+        assert np.load(tmp_path / "out" / f"{field}.npy").tobytes() == getattr(solution, field).tobytes(), field

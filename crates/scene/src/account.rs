@@ -67,7 +67,7 @@ record! {
         strongest: Option<(usize, usize)>,
         warnings: Vec<Notice>,
     ) {
-        /// Command.
+        /// Command of the program.
         command: &'static str = command,
         /// End of the solve: `converged`, `stalled`, `iteration-limit`, `detached` or `stopped`.
         status: Status = report.status,
@@ -116,7 +116,7 @@ record! {
         contact_fraction: f64 as Share = report.contact_fraction,
         /// Nodes in contact.
         contact_nodes: usize = report.contact_nodes,
-        /// Absent nodes.
+        /// Absent nodes, at which nothing faces the half-space.
         absent_nodes: usize = report.absent_nodes,
         /// With a free boundary, the largest traction on the outermost nodes over the largest anywhere: above 0.001 the map
         /// is too small, unless the body ends there.
@@ -158,7 +158,7 @@ record! {
         plastic_depth_mean: Option<f64> [LENGTH] = report.plastic.map(|plastic| plastic.depth_mean),
         /// With a hardness, the energy per area that yielding has dissipated.
         plastic_energy: Option<f64> [ENERGY_PER_AREA] = report.plastic.map(|plastic| plastic.energy),
-        /// Stability.
+        /// Stability, by `stability` or `leave`.
         stability: Option<Steadiness> = found.stability,
         /// Contact stiffness dp̄/dδ, the slope of the mean pressure over the approach, or over minus the mean gap: the
         /// stiffness of a flat punch with the outline of the contact. Infinite in full contact; with adhesion it may be
@@ -168,7 +168,7 @@ record! {
         stiffness_error: Option<f64> as Error = found.stiffness.and_then(|found| found.error()),
         /// Normal stiffness dF/dδ, with the contact stiffness.
         normal_stiffness: Option<f64> [FORCE_PER_LENGTH] = found.stiffness.map(|found| share * found.force_per_length),
-        /// Conductance.
+        /// Conductance, by `resistivities` or `conductivities`.
         conductance: Option<Conducted> = found.after.conductance,
         /// Whether open nodes connect the sides, along `x` and `y`, with the percolation.
         percolates: Option<Along<bool>> = found.after.percolates,

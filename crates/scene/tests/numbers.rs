@@ -148,10 +148,12 @@ fn table(numbers: &[&Number]) -> String {
     written::table(&["Key", "Unit", "Meaning"], &numbers.iter().map(row).collect::<Vec<_>>())
 }
 
-/// The table of a table within a report, of its numbers that the report does not have itself, if it is of a solution.
+/// The table of a table within a report, of its numbers that the report does not have itself, if it is of a solution;
+/// and of numbers that the report has of the finest of nested grids.
 fn table_within(numbers: &[&Number], of_report: &[&Number]) -> String {
     let is_solution = numbers.iter().any(|number| number.name == "status");
-    let is_repeated = |number: &&Number| is_solution && of_report.iter().any(|other| other.name == number.name);
+    let is_same = |one: &Number, other: &Number| one.name == other.name && !other.help.contains("nested grids");
+    let is_repeated = |number: &&Number| is_solution && of_report.iter().any(|other| is_same(number, other));
     let (repeated, own): (Vec<&Number>, Vec<&Number>) = numbers.iter().copied().partition(is_repeated);
     let names: Vec<_> = repeated.iter().map(|number| format!("`{}`", number.name)).collect();
     let repeated = if names.is_empty() { String::new() } else { format!("\nAs above: {}.\n", names.join(", ")) };

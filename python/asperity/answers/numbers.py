@@ -288,7 +288,7 @@ class Numbers:
 
     @property
     def absent_nodes(self) -> int:
-        """Absent nodes."""
+        """Absent nodes, at which nothing faces the half-space."""
         return self._told["absent_nodes"]
 
     @property

@@ -233,7 +233,7 @@ def solve(
     stability : bool
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool
-        Continues from an unstable equilibrium to a stable one.
+        Continues from an unstable equilibrium to one that is not.
     stiffness : bool
         Finds the contact stiffness, how much the load grows as the bodies approach each other: ``contact_stiffness``
         and ``normal_stiffness`` of the solution.

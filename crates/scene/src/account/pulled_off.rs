@@ -43,7 +43,7 @@ record! {
         refinable: bool = accurate.is_ok_and(|found| found.refinable),
         /// Least tension under which the surfaces came apart.
         lost_pressure: Option<f64> [PRESSURE] = found.lost,
-        /// Whether both tensions are within `rtol` of each other.
+        /// Whether both tensions are within `rtol` of each other, and an `accuracy` that was wanted is reached.
         reached: bool = found.reached && accurate.map_or(true, |found| found.reached),
         /// Relative tolerance.
         rtol: f64 = asked.tolerance,

@@ -11,7 +11,7 @@ keys! {
         "Output" {
             /// Test whether the solution is stable, and write its softest mode to mode.npy
             stability: bool = Kind::switch().excludes(&["nested"]),
-            /// Continue from an unstable equilibrium to a stable one, and say how far the energy falls; implies
+            /// Continue from an unstable equilibrium to one that is not, and say how far the energy falls; implies
             /// {stability}
             leave: bool = Kind::switch().excludes(&["nested"]),
             /// Find the contact stiffness, the slope of the mean pressure over the approach

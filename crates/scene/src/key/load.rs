@@ -20,8 +20,8 @@ keys! {
             /// Stiffness of a spring in series, such as a cantilever; needs {spring_position}
             spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_position"]),
-            /// Position Z of the spring's far end, relative to the relaxed spring: with a free boundary an approach, F
-            /// = K (Z - D); with a periodic one a mean gap, F = K (G - Z)
+            /// Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F =
+            /// K (Z - D); with a periodic one a mean gap, F = K (G - Z)
             spring_position: Option<f64> = Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
             /// Mean pressure over the contact modulus and the rms slope of the surface: p/(E* h'rms)
             reduced_pressure: Option<f64> = Kind::number(Range::FINITE, &["R"]),
@@ -50,9 +50,9 @@ keys! {
             /// Stiffness of a spring in series, such as a cantilever; needs {spring_positions}
             spring_stiffness: Option<f64> =
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_positions"]),
-            /// Positions Z of the spring's far end, relative to the relaxed spring: a list like {mean_gaps}, with a
-            /// free boundary of approaches, F = K (Z - D), begun apart if it grows from a negative value; with a
-            /// periodic one of mean gaps, F = K (G - Z)
+            /// Positions Z of the spring's far end, at which the spring is relaxed: a list like {mean_gaps}. With a free
+            /// boundary positions are approaches, F = K (Z - D), and a list that grows from a negative value begins
+            /// with the bodies apart; with a periodic one they are mean gaps, F = K (G - Z)
             spring_positions: Vec<f64> = Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
             /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like
             /// {mean_gaps}

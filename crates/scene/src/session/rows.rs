@@ -254,7 +254,10 @@ impl<T: Scalar> Rows<T> {
         self.course.is_over |= !found.as_ref().is_ok_and(|found| found.as_ref().is_some_and(goes_on));
         let found = found?;
         if let (Some((found, row)), Some(table), false) = (&found, &mut self.table, self.course.is_over) {
-            self.course.append(table, (found, row), &self.one.nodes(), &self.one.facts.processes)?;
+            let kept = self.course.append(table, (found, row), &self.one.nodes(), &self.one.facts.processes);
+            // a row that is not in the file is not behind the next one
+            self.course.is_over |= kept.is_err();
+            kept?;
         }
         Ok(found)
     }
