@@ -109,7 +109,7 @@ def test_fields_by_objects_are_those_of_the_tool(tmp_path, tool, rough, name, op
     np.savetxt(tmp_path / "law.txt", np.column_stack([GAPS, TRACTIONS]))
     scene = ["--heights", "heights.npy", "--lengths", 2, 2, "--mean-pressure", 0.02, "--precision", "f32"]
     asked(tool, tmp_path, "solve", *scene, "--no-pictures", "--out", "out", "--law", name, *options)
-    given = {"mean_pressure": 0.02, "law": law, "wall": wall, "precision": "f32"}
+    given = {"modulus": 1.0, "mean_pressure": 0.02, "law": law, "wall": wall, "precision": "f32"}
     solution = asperity.solve(rough.heights, (2.0, 2.0), **given)
     for field in ("gap", "pressure", "contact_pressure"):
         assert np.load(tmp_path / "out" / f"{field}.npy").tobytes() == getattr(solution, field).tobytes(), field
