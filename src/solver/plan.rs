@@ -70,10 +70,10 @@ pub(super) struct Plan {
 
 /// Plans a solve.
 ///
-/// On the branch of loading the wall alone comes first, rigid in the place of none. A law that jumps is smoothed,
-/// unless no state holds the load. So is the wall: off the branch of loading a default start with stiff springs is
-/// the state of a rigid wall, which takes a fraction of their iterations. No state is sought from a given start,
-/// which is on a branch that ends where the surfaces come apart, nor on the branch of loading.
+/// On the branch of loading the wall alone comes first, rigid in the place of none. A law that jumps is smoothed. Off
+/// the branch of loading stiff springs begin, from a default start, as a rigid wall, which takes a fraction of their
+/// iterations. Neither is done if no state holds the load. No state is sought from a given start, which is on a branch
+/// that ends where the surfaces come apart, nor on the branch of loading.
 pub(super) fn plan(facts: Facts) -> Plan {
     let Facts { given, branch, jumps, repels, stiff, torn } = facts;
     let from_afar = !given && branch == Some(Branch::Loading);
