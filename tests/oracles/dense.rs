@@ -179,6 +179,12 @@ impl Dense {
         self.pressure(u).iter().zip(&self.share).map(|(p, share)| p + self.nodes as f64 * share * mean).collect()
     }
 
+    /// The entries next to the second derivative where the shift is held, over the shares: as large as the stiffness, so
+    /// that elimination takes its pivots by what they mean.
+    fn border(&self) -> f64 {
+        self.nodes as f64 * self.stiffest
+    }
+
     /// The second derivative of the energy on some nodes, less a number, where the others do not move.
     pub fn hessian(&self, free: &[usize], held: Held, slopes: &[f64], less: f64) -> Vec<Vec<f64>> {
         let (n, mean) = (self.faces.len(), self.nodes as f64 * held.stiffness());
@@ -186,7 +192,7 @@ impl Dense {
         let mut rows: Vec<Vec<f64>> = free.iter().map(|&i| free.iter().map(|&j| of(i, j)).collect()).collect();
         rows.iter_mut().enumerate().for_each(|(k, row)| row[k] += slopes[free[k]] - less);
         if let Held::Shift(_) = held {
-            let border: Vec<f64> = free.iter().map(|&i| self.nodes as f64 * self.share[i]).collect();
+            let border: Vec<f64> = free.iter().map(|&i| self.border() * self.share[i]).collect();
             rows.iter_mut().zip(&border).for_each(|(row, value)| row.push(*value));
             rows.push(border.into_iter().chain([0.0]).collect());
         }
@@ -241,11 +247,11 @@ impl Dense {
                 let mut right: Vec<f64> = free.iter().map(|&i| -r[i]).collect();
                 if let Held::Shift(x) = held {
                     let u: Vec<f64> = gap.iter().zip(heights).map(|(g, h)| g + h).collect();
-                    right.push(self.nodes as f64 * (x - self.shift(&u)));
+                    right.push(self.border() * (x - self.shift(&u)));
                 }
                 let step = eliminate(self.hessian(&free, held, &slopes, 0.0), right)?;
                 free.iter().zip(&step).for_each(|(&i, step)| gap[i] += step);
-                level = if step.len() > free.len() { step[free.len()] } else { 0.0 };
+                level = if step.len() > free.len() { self.stiffest * step[free.len()] } else { 0.0 };
             }
             let (r, size) = (residual(&gap, &sides, level), largest(&self.pressure(heights)).max(level.abs()));
             let edge = 1e-11 * size.max(held.pressure(0.0).abs());
