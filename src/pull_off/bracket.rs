@@ -1,10 +1,10 @@
 //! A bracket: the tensions that surfaces bear, and the least tension that they do not.
 
-use crate::degrees::PARTLY;
+use crate::degrees::{HARDLY, PARTLY};
 use crate::solver::Report;
 
-/// The least and the largest next tension over the last tension borne, as long as no tension is too large.
-const GROWTH: (f64, f64) = (1.2, 2.5);
+/// The largest next step of the tension over the last step, as long as no tension is too large.
+const GROWTH: f64 = 1.5;
 
 /// The share of a bracket below a tension that is tried without a peak: a state that holds costs less than surfaces that come
 /// apart.
@@ -65,28 +65,31 @@ impl Bracket {
         self.lost.is_some_and(|lost| lost - self.from <= tolerance * lost)
     }
 
-    /// The tension to try.
+    /// The tension to try. A loss takes many times the iterations of a state that holds: a tension above the peak is tried
+    /// only where its loss ends the search.
     pub(super) fn next(&self, first: f64, tolerance: f64) -> f64 {
-        let (low, peak) = (self.greatest(), self.peak());
         if let Some(tension) = self.next_as_expected() {
             return tension;
         }
+        let low = self.greatest();
+        // the farthest tension with a loss that ends the search
+        let last = low / (1.0 - (1.0 - HARDLY) * tolerance);
+        let near = self.peak().map(|peak| if peak <= last { last } else { peak * (1.0 - 0.25 * tolerance) }.max(last));
         let Some(lost) = self.lost else {
-            let (least, most) = GROWTH;
-            let beyond = peak.map_or(f64::INFINITY, |peak| peak * (1.0 + 0.25 * tolerance));
-            return if low > 0.0 { beyond.clamp(least * low, most * low) } else { first };
+            let before = self.borne.iter().rev().nth(1).map_or(0.0, |place| place.tension);
+            let farthest = (low + GROWTH * (low - before)).max(last);
+            return if low > 0.0 { near.unwrap_or(f64::INFINITY).min(farthest) } else { first };
         };
-        if lost - low <= tolerance * lost {
+        if lost <= last {
             // lost from farther off
             return lost;
         }
         let inside = PARTLY * (lost - low);
-        let Some(peak) = peak.filter(|&peak| low < peak && peak < lost) else {
-            return if low > 0.0 && lost > 2.0 * low { (low * lost).sqrt() } else { low + BELOW * (lost - low) };
-        };
-        // the side of the peak on which the bracket is wider
-        let side = if lost - peak > peak - low { 0.25 } else { -0.25 };
-        (peak * (1.0 + side * tolerance)).clamp(low + inside, lost - inside)
+        match near.filter(|&near| near < lost) {
+            Some(near) => near.clamp(low + inside, lost - inside).max(last),
+            None if low > 0.0 && lost > 2.0 * low => (low * lost).sqrt(),
+            None => (low + BELOW * (lost - low)).max(last),
+        }
     }
 
     /// The tension to try while the pull-off is not enclosed: the ends of the expected tensions, then ever farther beyond.
@@ -95,16 +98,20 @@ impl Bracket {
         let beyond = match self.lost {
             None if low < least => least,
             None if low < most => most,
-            None => (2.0 * low - least).min(GROWTH.1 * low),
+            None => (2.0 * low - least).min((1.0 + GROWTH) * low),
             Some(lost) => 2.0 * lost - most,
         };
         let is_beyond = self.lost.is_none_or(|lost| lost <= least);
         (is_beyond && beyond > low).then_some(beyond)
     }
 
-    /// The largest tension of the parabola over the distance through the last three places, if it has one.
+    /// The largest tension of the parabola over the distance through the last three places, if the bodies go apart from
+    /// place to place, and it has one.
     fn peak(&self) -> Option<f64> {
         let [.., a, b, c] = self.borne[..] else { return None };
+        if !(a.distance < b.distance && b.distance < c.distance) {
+            return None;
+        }
         let slope = |from: Held, to: Held| (to.tension - from.tension) / (to.distance - from.distance);
         let bend = (slope(b, c) - slope(a, b)) / (c.distance - a.distance);
         let there = slope(b, c) + bend * (c.distance - b.distance);
