@@ -1,12 +1,11 @@
 //! Hints next to the mistakes in arguments: what may have been meant.
 
-use std::any::TypeId;
 use std::ffi::OsString;
 
+use asperity_scene::{Key, Values};
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgAction, Command};
 
-use crate::loads::Loads;
 use crate::named;
 use crate::synonyms::{is_same, meant};
 
@@ -28,9 +27,7 @@ pub fn hinted(tool: &Command, arguments: &[OsString], mut error: Error) -> Error
         (ErrorKind::ValueValidation, Some(command)) => of_several(tool, command, word, value),
         _ => Vec::new(),
     };
-    let keys = named(name).into_iter().flat_map(|command| command.keys());
-    if let (true, Some(key)) =
-        (hints.is_empty(), keys.into_iter().find(|key| key.dashed() == word.trim_start_matches('-')))
+    if let (true, Some(key)) = (hints.is_empty(), key_of(name, word.trim_start_matches('-')))
         && let ErrorKind::ValueValidation | ErrorKind::InvalidValue = error.kind()
         && let Err(reason) = key.value(value)
     {
@@ -126,8 +123,8 @@ fn of_several(tool: &Command, command: &Command, word: &str, value: &str) -> Vec
 
 /// For several values of an option of a solve that is no list.
 fn of_study(command: &Command, name: &str) -> Vec<String> {
-    let is_single = |option: &Arg| option.get_value_parser().type_id() != TypeId::of::<Loads>();
-    let has_cases = find(command, "heights").is_some() && find(command, name).is_some_and(is_single);
+    let is_single = |key: &Key| !matches!(key.kind.values, Values::Quantities(..) | Values::Numbers(_));
+    let has_cases = find(command, "heights").is_some() && key_of(command.get_name(), name).is_some_and(is_single);
     let hint =
         || format!("several values are for 'asperity study', by {name} = \"FROM:TO:COUNT\" in its section [vary]");
     has_cases.then(hint).into_iter().collect()
@@ -135,6 +132,10 @@ fn of_study(command: &Command, name: &str) -> Vec<String> {
 
 fn of_scene(file: &str) -> String {
     format!("a scene is run by 'asperity run {file}', a study by 'asperity study {file}'")
+}
+
+fn key_of(command: &str, name: &str) -> Option<&'static Key> {
+    named(command).ok()?.keys().find(|key| key.dashed() == name)
 }
 
 fn find<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {

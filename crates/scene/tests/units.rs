@@ -5,7 +5,7 @@ use asperity::path::PathSettings;
 use asperity_scene::allowed::Range;
 use asperity_scene::fall::{Fall, time};
 use asperity_scene::legs::{Leg, abscissa, legs, logarithmic};
-use asperity_scene::list::{Loads, list};
+use asperity_scene::list::{Loads, parsed};
 use asperity_scene::pace::Pace;
 use asperity_scene::quantity::{
     AREA, CONDUCTIVITY, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
@@ -200,11 +200,11 @@ fn no_word_has_two_meanings() {
 }
 
 fn gaps(text: &str) -> Result<Loads, String> {
-    list(LENGTH.within(Range::NON_NEGATIVE))(text)
+    parsed(text, &LENGTH.within(Range::NON_NEGATIVE))
 }
 
 fn signed(text: &str) -> Result<Loads, String> {
-    list(LENGTH.within(Range::FINITE))(text)
+    parsed(text, &LENGTH.within(Range::FINITE))
 }
 
 #[test]

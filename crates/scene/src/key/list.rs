@@ -14,16 +14,7 @@ pub struct Loads {
 /// The largest number of loads; more are taken for a slip of the pen.
 const MOST_LOADS: usize = 100_000;
 
-/// The parser of numbers and ranges with commas between, FROM:TO:COUNT or FROM:TO:COUNT:log, from the parser of a
-/// number.
-pub fn list<P>(number: P) -> impl Fn(&str) -> Result<Loads, String> + Clone + Send + Sync + 'static
-where
-    P: Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static,
-{
-    move |text| parsed(text, &number)
-}
-
-/// Reads numbers and ranges with commas between.
+/// Reads numbers and ranges with commas between, FROM:TO:COUNT or FROM:TO:COUNT:log, by the parser of a number.
 ///
 /// # Errors
 /// The part that is no number and no range, with the reason.

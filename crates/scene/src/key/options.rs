@@ -2,16 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, ValueHint};
 
-use crate::key::list::list;
-use crate::key::{Entries, Key, Quantity, Skin, Values, Word, worded};
+use crate::key::{Entries, Key, Skin, Values, Word, worded};
 
 impl Key {
     /// The option of the key.
-    pub fn option(&self) -> Arg {
+    pub fn option(&'static self) -> Arg {
         let kind = &self.kind;
         let help = worded(self.help.trim(), Skin::Options);
         let arg = Arg::new(self.name).help(help).required(kind.required).overrides_with_all(kind.replaces);
@@ -39,30 +38,18 @@ impl Key {
         }
     }
 
-    /// The parser of one value.
-    fn parser(&self) -> ValueParser {
+    /// The check of one value, which [`chosen`] reads from its text.
+    fn parser(&'static self) -> ValueParser {
         match self.kind.values {
-            Values::Quantity(dimension, range) => ValueParser::new(dimension.within(range)),
-            Values::Number(range) => ValueParser::new(move |text: &str| range.number(text)),
-            Values::Whole(from, to, words) => ValueParser::new(move |text: &str| super::whole(text, from..=to, words)),
-            Values::Switch => ValueParser::bool(),
             Values::Word(words) => {
                 let value = |Word { name, help }| {
                     let value = PossibleValue::new(name);
                     if help.is_empty() { value } else { value.help(help.trim()) }
                 };
-                let named = move |typed: String| {
-                    let name = words().into_iter().map(|word| word.name).find(|name| name.eq_ignore_ascii_case(&typed));
-                    name.map_or(typed, str::to_owned)
-                };
-                PossibleValuesParser::new(words().into_iter().map(value)).map(named).into()
+                PossibleValuesParser::new(words().into_iter().map(value)).into()
             }
-            Values::Text(check) => ValueParser::new(move |text: &str| check(text).map(|()| text.to_owned())),
             Values::File => clap::value_parser!(PathBuf),
-            Values::Quantities(dimension, range) => ValueParser::new(list(dimension.within(range))),
-            Values::Numbers(range) => {
-                ValueParser::new(list(move |text: &str| range.number(text).map(Quantity::number)))
-            }
+            _ => ValueParser::new(|text: &str| self.value(text).map(drop)),
         }
     }
 }
