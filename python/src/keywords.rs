@@ -1,6 +1,8 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::{Adhesion, Entries, Input, Key, Quantities, Skin, key};
+use asperity_scene::{
+    Adhesion, AdhesionKeys, Entries, Input, Key, Keys, Quantities, Skin, SolverKeys, SurfaceKeys, key,
+};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -8,21 +10,15 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::law::Law;
 use crate::refusal::reason;
 
-/// The keys of several lists that keywords may give.
-macro_rules! known {
-    ($($list:ident),*) => { std::iter::empty()$(.chain(asperity_scene::without_files::<asperity_scene::$list>()))*.collect::<Vec<_>>() };
-}
-pub(crate) use known;
-
-/// What a dictionary of keywords gives for some of the `known` keys.
-pub fn read(known: &[&'static Key], keywords: &Bound<'_, PyDict>) -> PyResult<Entries> {
+/// What a dictionary of keywords gives for the keys of `lists`.
+pub fn read(lists: &[&'static [Key]], keywords: &Bound<'_, PyDict>) -> PyResult<Entries> {
     let of = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let key: String = key.extract()?;
         let typed = typed(&key, &value)?;
         Ok((key, typed))
     };
     let typed = keywords.iter().map(of).collect::<PyResult<Vec<_>>>()?;
-    Entries::read(known, typed).map_err(reason)
+    Entries::read(lists, typed).map_err(reason)
 }
 
 /// The value of a keyword: a truth value, a text, a number, or several.
@@ -84,7 +80,7 @@ impl Keywords {
     #[new]
     #[pyo3(signature = (keywords, law, numbers_are_si=false))]
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, numbers_are_si: bool) -> PyResult<Self> {
-        let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
+        let given = read(&[SurfaceKeys::KEYS, AdhesionKeys::KEYS, SolverKeys::KEYS], keywords)?;
         let law = law.map(Law::from_object).transpose()?;
         let of_law = law.as_ref().map(|law| law.given.quantities()).unwrap_or_default();
         let quantities = Quantities::all([quantities_of(&given, numbers_are_si), of_law]);

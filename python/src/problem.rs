@@ -6,7 +6,11 @@ use asperity_maps::Topography;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::LENGTH;
 use asperity_scene::theories::Theories;
-use asperity_scene::{AnyRows, AnySession, Boundary, Case, Entries, Load, Maps, Objects, Skin, Way, either, worded};
+use asperity_scene::{
+    AccuracyKeys, AnyRows, AnySession, Boundary, Case, ConductorKeys, CycleAccuracyKeys, Entries, FindingsKeys,
+    FractionsKeys, Keys, LeakageKeys, Load, LoadKeys, LoadsKeys, Maps, NestedKeys, Objects, PathKeys, PullOffKeys,
+    Skin, StiffnessKeys, Way, either, worded,
+};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -14,7 +18,7 @@ use pyo3::types::PyDict;
 
 use crate::functions::symbol_of;
 use crate::inputs::{Begin, Map};
-use crate::keywords::{Keywords, known, read};
+use crate::keywords::{Keywords, read};
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal_of_session};
@@ -121,8 +125,8 @@ impl Problem {
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
     ) -> Answer<'py> {
-        let known = known!(LoadKeys, NestedKeys, FindingsKeys, ConductorKeys, AccuracyKeys);
-        let ((case, session), started) = (self.called(&[read(&known, keywords)?])?, start.is_some());
+        let lists = [LoadKeys::KEYS, NestedKeys::KEYS, FindingsKeys::KEYS, ConductorKeys::KEYS, AccuracyKeys::KEYS];
+        let ((case, session), started) = (self.called(&[read(&lists, keywords)?])?, start.is_some());
         let load = case.load().and_then(|load| case.request(1.0, started).map(|_| load)).map_err(refusal_of_session)?;
         let at = self.at(py, observe)?;
         let asked = case.request(full_pressure(&session, &at, &[load])?, started).map_err(refusal_of_session)?;
@@ -137,7 +141,7 @@ impl Problem {
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
     ) -> Answer<'py> {
-        let (case, session) = self.called(&[read(&known!(PullOffKeys), keywords)?])?;
+        let (case, session) = self.called(&[read(&[PullOffKeys::KEYS], keywords)?])?;
         let asked = (case.given().pull_off(), case.given().goal().map_err(reason)?);
         let at = self.at(py, observe)?;
         either!(session = session => state::pull_off(session, &at, asked, start))
@@ -154,12 +158,12 @@ impl Problem {
         table: (Option<u64>, Option<File<'py>>),
         observe: Option<Py<PyAny>>,
     ) -> PyResult<(Columns<'py>, usize)> {
-        let known = match way {
-            "cycle" => known!(LoadsKeys, PathKeys, CycleAccuracyKeys),
-            "interface" => known!(LoadsKeys, ConductorKeys, LeakageKeys),
-            _ => known!(LoadsKeys, FractionsKeys, StiffnessKeys, ConductorKeys, LeakageKeys),
+        let lists = match way {
+            "cycle" => &[LoadsKeys::KEYS, PathKeys::KEYS, CycleAccuracyKeys::KEYS][..],
+            "interface" => &[LoadsKeys::KEYS, ConductorKeys::KEYS, LeakageKeys::KEYS],
+            _ => &[LoadsKeys::KEYS, FractionsKeys::KEYS, StiffnessKeys::KEYS, ConductorKeys::KEYS, LeakageKeys::KEYS],
         };
-        let parts = keywords.iter().map(|keywords| read(&known, keywords));
+        let parts = keywords.iter().map(|keywords| read(lists, keywords));
         let parts = parts.collect::<PyResult<Vec<_>>>()?;
         let (case, session) = self.called(&parts)?;
         let loads = parts.iter().map(|part| part.loads().map_err(reason)).collect::<PyResult<Vec<_>>>()?.concat();
@@ -221,7 +225,7 @@ impl Problem {
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let ((_, session), at) = (self.called(&[])?, self.at(py, None)?);
-        let load = read(&known!(LoadKeys), keywords)?.load().map_err(reason)?;
+        let load = read(&[LoadKeys::KEYS], keywords)?.load().map_err(reason)?;
         let control = load.control(full_pressure(&session, &at, &[load])?);
         either!(session = session => state::stability(session, &at, control, (gap, relative_error)))
     }

@@ -8,15 +8,14 @@ use asperity_maps::Topography;
 use asperity_maps::io::{Reading, check_memory, read_fourier, write_topography};
 use asperity_scene::output::OutputFile;
 use asperity_scene::quantity::LENGTH;
-use asperity_scene::{Body, Log, Preparation, Roughness, in_unit};
+use asperity_scene::{FormKeys, Keys, Log, Preparation, RoughnessKeys, StepKeys, in_unit};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
-use crate::inputs::keys;
-use crate::keywords::{self, known};
+use crate::keywords;
 use crate::numbers::{Field, whole};
 use crate::pools::apart;
 use crate::refusal::{reason, refusal};
@@ -95,12 +94,14 @@ pub fn made<'py>(
     py: Python<'py>,
     shape: (usize, usize),
     lengths: (f64, f64),
-    body: Bound<'py, PyAny>,
-    roughness: Option<Bound<'py, PyAny>>,
+    body: &Bound<'py, PyDict>,
+    roughness: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let body: Body = keys(body)?;
+    let body: FormKeys = keywords::read(&[FormKeys::KEYS], body)?.keys();
     let one = || PyValueError::new_err("give rms_height or rms_slope, one of the two");
-    let rough = roughness.map(|rough| keys::<Roughness>(rough)?.self_affine().ok_or_else(one)).transpose()?;
+    let rough =
+        |given| keywords::read(&[RoughnessKeys::KEYS], given)?.keys::<RoughnessKeys>().self_affine().ok_or_else(one);
+    let rough = roughness.map(rough).transpose()?;
     check_memory("a surface", shape, if rough.is_some() { 32 } else { 16 }).map_err(refusal)?;
     let drawn = apart(py, || {
         let grid = Grid::new(shape, lengths)?;
@@ -191,7 +192,8 @@ pub fn prepare<'py>(
     in_metres: bool,
     steps: &Bound<'py, PyDict>,
 ) -> PyResult<Prepared<'py>> {
-    let mut steps: Preparation = keywords::read(&known!(StepKeys), steps)?.object().map_err(reason)?;
+    let steps = keywords::read(&[StepKeys::KEYS], steps)?.keys();
+    let mut steps = Preparation { steps, ..Preparation::default() };
     let measured = given.topography()?;
     let unit = measured.unit.as_deref();
     let lengths = new_lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, in_metres, unit));

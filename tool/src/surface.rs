@@ -7,7 +7,7 @@ use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Body, BodyForm, Entries, Kind, Roughness, RoughnessKeys, keys, statistics};
+use asperity_scene::{BodyForm, Entries, FormKeys, Kind, RoughnessKeys, keys, statistics};
 use serde_json::{Value, json};
 
 use crate::command::Call;
@@ -63,7 +63,7 @@ keys! {
 /// The surface that options describe.
 struct Described {
     grid: Grid,
-    body: Body,
+    body: FormKeys,
     rough: Option<SelfAffine>,
     fourier: Option<(PathBuf, f64)>,
     unit: Option<&'static str>,
@@ -77,7 +77,7 @@ pub fn map(given: &Entries) -> Outcome<Topography> {
 fn described(given: &Entries) -> Outcome<Described> {
     let is_si = given.quantities().is_si();
     let shape = in_options(given.shape())?;
-    let (body, roughness): (Body, Roughness) = (given.object()?, given.object()?);
+    let (body, roughness): (FormKeys, RoughnessKeys) = (given.keys(), given.keys());
     let (form, fourier) = (body.form, given.fourier());
     in_options(body.check())?;
     let rough = roughness.self_affine();

@@ -8,15 +8,14 @@ use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Body, Case, CutOffKeys, FormKeys, GridKeys, Log, NewLengthsKeys, Objects, Roughness, RoughnessKeys, Skin, StepKeys,
-    statistics, without_files,
+    Case, CutOffKeys, FormKeys, GridKeys, Keys, Log, NewLengthsKeys, Objects, RoughnessKeys, Skin, StepKeys, statistics,
 };
 use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::entries::{read, reason};
 use crate::lines::{Origin, Source};
-use crate::problem::{Observe, Problem, of_problem};
+use crate::problem::{KEYS, Observe, Problem};
 use crate::state::{NOT_BEGUN, extremes, histogram};
 
 /// A map, the surface that is made of it, and the solves on that.
@@ -82,13 +81,12 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and errors of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
-        let given = read(given, without_files::<(FormKeys, RoughnessKeys, GridKeys)>())?;
+        let given = read(given, &[FormKeys::KEYS, RoughnessKeys::KEYS, GridKeys::KEYS])?;
         let (typed, si) = (given.typed(), given.quantities().is_si());
         let shape = given.shape().map_err(reason)?;
         let sides = given.sides(shape, si).map_err(reason)?;
-        let body: Body = given.object()?;
+        let (body, roughness): (FormKeys, RoughnessKeys) = (given.keys(), given.keys());
         body.check().map_err(reason)?;
-        let roughness: Roughness = given.object()?;
         let rough = roughness.self_affine();
         if rough.is_none() && (roughness.rms_height.is_some() || body.form == Default::default()) {
             return Err("roughness: give rms_height or rms_slope, one of the two".into());
@@ -108,7 +106,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and errors of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
-        let given = read(given, without_files::<(StepKeys, NewLengthsKeys, CutOffKeys)>())?;
+        let given = read(given, &[StepKeys::KEYS, NewLengthsKeys::KEYS, CutOffKeys::KEYS])?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
         let typed = given.typed();
         let steps = given.steps(map.heights.dim(), given.quantities().is_si(), map.unit.as_deref()).map_err(reason)?;
@@ -279,7 +277,7 @@ impl Engine {
 
 /// The case of the keys of a solve or a cycle.
 fn case(given: &str) -> Outcome<Case> {
-    let given = read(given, of_problem())?;
+    let given = read(given, &KEYS)?;
     let quantities = given.quantities();
     Case::new(given, quantities, Objects::default(), Skin::Keywords)
 }

@@ -10,14 +10,14 @@ use serde_json::{Map, Value};
 /// # Errors
 /// The key and the remedy, if it is not known or a value is none for it, and if some quantities have units and others
 /// have none.
-pub fn read(json: &str, known: impl IntoIterator<Item = &'static Key>) -> Outcome<Entries> {
+pub fn read(json: &str, lists: &[&'static [Key]]) -> Outcome<Entries> {
     let typed: Map<String, Value> = serde_json::from_str(json)?;
     let of = |(key, value): (String, Value)| match Input::deserialize(&value) {
         Ok(typed) => Ok((key, typed)),
         Err(_) => Err(format!("{key} is {value}: it must be a number, a text, a truth value, or several")),
     };
     let typed = typed.into_iter().filter(|(_, value)| !value.is_null()).map(of).collect::<Result<Vec<_>, _>>()?;
-    let given = Entries::read(&known.into_iter().collect::<Vec<_>>(), typed).map_err(reason)?;
+    let given = Entries::read(lists, typed).map_err(reason)?;
     given.quantities().check(Skin::Keywords)?;
     Ok(given)
 }

@@ -4,8 +4,8 @@ use asperity_maps::Topography;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::processes::Processes;
 use asperity_scene::{
-    AdhesionKeys, AnySession, Case, Either, Key, LoadKeys, LoadsKeys, Map, Maps, NestedKeys, PathKeys, SolverKeys,
-    SurfaceKeys, Way, either, without_files,
+    AdhesionKeys, AnySession, Case, Either, Key, Keys, LoadKeys, LoadsKeys, Map, Maps, NestedKeys, PathKeys,
+    SolverKeys, SurfaceKeys, Way, either,
 };
 use ndarray::Array2;
 use serde_json::{Map as KeyValues, Value};
@@ -15,14 +15,11 @@ use crate::state::State;
 pub use crate::state::Observe;
 
 /// The keys of a solve and of a cycle.
-pub fn of_problem() -> impl Iterator<Item = &'static Key> {
-    without_files::<(SurfaceKeys, AdhesionKeys, SolverKeys)>().chain(of_one_solve()).chain(without_files::<PathKeys>())
-}
+pub const KEYS: [&[Key]; 7] =
+    [SurfaceKeys::KEYS, AdhesionKeys::KEYS, SolverKeys::KEYS, OF_LOADS[0], OF_LOADS[1], OF_LOADS[2], PathKeys::KEYS];
 
-/// Those that pose no other problem.
-fn of_one_solve() -> impl Iterator<Item = &'static Key> {
-    without_files::<(LoadKeys, LoadsKeys, NestedKeys)>()
-}
+/// The keys that pose no other problem.
+const OF_LOADS: [&[Key]; 3] = [LoadKeys::KEYS, LoadsKeys::KEYS, NestedKeys::KEYS];
 
 /// A contact problem on a surface, with its solutions.
 pub struct Problem {
@@ -48,7 +45,7 @@ impl Problem {
         goes_on: bool,
     ) -> Outcome<Self> {
         let mut keys = case.given().typed();
-        keys.retain(|name, _| of_one_solve().all(|key| key.name != name));
+        keys.retain(|name, _| OF_LOADS.into_iter().flatten().all(|key| key.name != name));
         if let Some(same) = before.take_if(|before| goes_on && before.posed == keys) {
             return Ok(same);
         }

@@ -41,7 +41,7 @@ use std::ops::RangeInclusive;
 pub use self::accuracy::{AccuracyKeys, CycleAccuracyKeys, GIB, Goal, PullOffKeys};
 pub use self::adhesion::{Adhesion, AdhesionKeys};
 pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKeys, PercolationKeys, StiffnessKeys};
-pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
+pub use self::body::{BodyForm, FormKeys, FourierKeys, GridKeys, RoughnessKeys};
 pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use self::entries::{Choice, Entries, Input, Readable};
@@ -70,7 +70,7 @@ pub(crate) use self::allowed::{Range, unit};
 pub(crate) use self::boundary::peak;
 pub(crate) use self::entries::Read;
 pub(crate) use self::laws::WORK;
-pub(crate) use self::macros::{choice, keys, record};
+pub(crate) use self::macros::{choice, keys, readable, record};
 pub(crate) use self::number::is_reported;
 pub(crate) use self::quantity::*;
 pub(crate) use self::units::{Units, is_unit};
@@ -104,39 +104,6 @@ pub trait Keys {
 
     /// What was given for them.
     fn read(given: &Entries) -> Self;
-}
-
-/// A list of keys, or several in the order of the help.
-pub trait Lists {
-    /// The lists.
-    const LISTS: &'static [&'static [Key]];
-
-    /// The keys of all lists.
-    fn keys() -> impl Iterator<Item = &'static Key> {
-        Self::LISTS.iter().copied().flatten()
-    }
-}
-
-impl<L: Keys> Lists for L {
-    const LISTS: &'static [&'static [Key]] = &[L::KEYS];
-}
-
-macro_rules! lists {
-    ($($list:ident)+) => {
-        impl<$($list: Keys),+> Lists for ($($list,)+) {
-            const LISTS: &'static [&'static [Key]] = &[$($list::KEYS),+];
-        }
-    };
-}
-lists!(A B);
-lists!(A B C);
-lists!(A B C D);
-lists!(A B C D E);
-lists!(A B C D E F);
-
-/// The keys of lists, but for keys of files: in their place Python has arrays and objects, and a page nothing.
-pub fn without_files<L: Lists>() -> impl Iterator<Item = &'static Key> {
-    L::keys().filter(|key| !matches!(key.kind.values, Values::File))
 }
 
 /// The lists of keys that are no keywords of solves.

@@ -13,9 +13,9 @@ use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, AdhesionKeys, After, Answer, Boundary, Case, Elastic, Entries, Goal, GridErrors, GridLevel,
-    Input, Inputs, Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row, Rows,
-    Scene, Search, Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Way, check_finite,
-    rows, shortfalls, without_files, worded,
+    Input, Inputs, Keys, Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row,
+    Rows, Scene, Search, Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Way,
+    check_finite, rows, shortfalls, worded,
 };
 use ndarray::Array2;
 use serde::Deserialize;
@@ -45,12 +45,12 @@ fn posed_by(scene: &Scene) -> Session<f64> {
 }
 
 fn session(scene: &Scene, surface: Surface, is_strict: bool) -> Outcome<Session<f64>> {
-    let keys: Vec<_> = without_files::<(SurfaceKeys, AdhesionKeys, SolverKeys)>().collect();
-    let known = |name: &str| keys.iter().any(|key| key.name == name);
+    let lists = [SurfaceKeys::KEYS, AdhesionKeys::KEYS, SolverKeys::KEYS];
+    let known = |name: &str| lists.into_iter().flatten().any(|key| key.name == name);
     let Value::Object(all) = json!(scene) else { unreachable!() };
     let typed = all.into_iter().filter(|(name, value)| known(name) && !value.is_null());
     let typed: Vec<_> = typed.map(|(name, value)| (name, Input::deserialize(value).unwrap())).collect();
-    let given = Entries::read(&keys, typed)?;
+    let given = Entries::read(&lists, typed)?;
     let case = Case::new(given, Quantities::default(), Objects::default(), Skin::Keywords)?;
     let (map, processes) = (Map::whole(None, surface.into()), Processes::start()?);
     Session::new(case.on(Maps::new(map), 1, &processes)?, is_strict, &processes)

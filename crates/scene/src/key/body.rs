@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use asperity::{Amplitude, Error, Grid, Result, SelfAffine, Surface};
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
-use serde::Deserialize;
 
 use crate::key::{Entries, Kind, LENGTH, Range, choice, keys};
 
@@ -68,7 +67,7 @@ keys! {
     FormKeys {
         "Form" {
             /// Form of the body, with its apex on the node in the middle
-            form: Option<BodyForm> = Kind::word(BodyForm::words, &["FORM"]).or("self-affine"),
+            form: BodyForm = Kind::word(BodyForm::words, &["FORM"]).or("self-affine"),
             /// Radius of a sphere or a flat punch, radius of curvature of a paraboloid
             radius: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["R"]),
             /// Angle between the side of a cone and the half-space, in degrees: 90 less half the angle at its apex
@@ -81,24 +80,6 @@ keys! {
             tilt: Vec<f64> = Kind::number(Range::FINITE, &["SX", "SY"]).from(1),
         }
     }
-}
-
-/// A body of a simple form.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default)]
-pub struct Body {
-    /// The form.
-    pub form: BodyForm,
-    /// The radius, or radius of curvature.
-    pub radius: Option<f64>,
-    /// The angle of a cone in degrees.
-    pub angle: Option<f64>,
-    /// The amplitude of a wave.
-    pub amplitude: Option<f64>,
-    /// The periods of a wave along the sides.
-    pub periods: Option<Vec<u32>>,
-    /// The slope of a plane that is added.
-    pub tilt: Option<Vec<f64>>,
 }
 
 choice! {
@@ -119,7 +100,7 @@ choice! {
     }
 }
 
-impl Body {
+impl FormKeys {
     /// Refuses parameters that the form lacks or does not have.
     ///
     /// # Errors
@@ -130,7 +111,7 @@ impl Body {
             ("radius", self.radius.is_some(), round.contains(&self.form)),
             ("angle", self.angle.is_some(), self.form == BodyForm::Cone),
             ("amplitude", self.amplitude.is_some(), self.form == BodyForm::Wave),
-            ("periods", self.periods.is_some(), self.form == BodyForm::Wave && self.periods.is_some()),
+            ("periods", !self.periods.is_empty(), self.form == BodyForm::Wave && !self.periods.is_empty()),
         ];
         let misfit = given.into_iter().find(|(_, given, needed)| given != needed);
         misfit.map_or(Ok(()), |(name, _, lacks)| {
@@ -142,9 +123,9 @@ impl Body {
     /// The surface of the body with `roughness` of the shape of the grid on it; nodes beyond the body are absent.
     ///
     /// # Errors
-    /// [`Error::Value`] if a parameter is not as its field says, or the grid does not resolve a wave.
+    /// [`Error::Value`] if the grid does not resolve a wave.
     pub fn surface(&self, grid: Grid, roughness: Option<Surface>) -> Result<Surface> {
-        let flat = self.form == BodyForm::SelfAffine && self.tilt.is_none();
+        let flat = self.form == BodyForm::SelfAffine && self.tilt.is_empty();
         if let (true, Some(roughness)) = (flat, &roughness) {
             return Ok(roughness.clone());
         }
@@ -157,22 +138,17 @@ impl Body {
 
     /// The heights of the body, NaN beyond it.
     fn heights(&self, grid: &Grid) -> Result<Array2<f64>> {
-        let length = |name, given: Option<f64>| given.map_or(Ok(0.0), |given| Error::positive(name, given));
-        let (radius, amplitude) = (length("radius", self.radius)?, length("amplitude", self.amplitude)?);
+        let (radius, amplitude) = (self.radius.unwrap_or_default(), self.amplitude.unwrap_or_default());
         let slope = self.angle.unwrap_or_default().to_radians().tan();
-        if let Some(value) = self.angle.filter(|angle| !(*angle > 0.0 && *angle < 90.0)) {
-            let requirement = "a number of degrees, positive and below 90";
-            return Err(Error::Value { name: "angle", value, requirement });
-        }
-        let (mx, my) = pair(self.periods.as_deref()).unwrap_or((1, 0));
+        let (mx, my) = pair(&self.periods).unwrap_or((1, 0));
         let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
         for (name, periods, nodes) in [("periods MX", mx, nx), ("periods MY", my, ny)] {
-            if self.form == BodyForm::Wave && 2 * periods as usize > nodes {
+            if self.form == BodyForm::Wave && periods > nodes / 2 {
                 let requirement = "at most half the number of nodes";
-                return Err(Error::Value { name, value: periods.into(), requirement });
+                return Err(Error::Value { name, value: periods as f64, requirement });
             }
         }
-        let (along_x, along_y) = pair(self.tilt.as_deref()).unwrap_or_default();
+        let (along_x, along_y) = pair(&self.tilt).unwrap_or_default();
         let form = |x: f64, y: f64| {
             let r2 = x * x + y * y;
             match self.form {
@@ -181,9 +157,7 @@ impl Body {
                 BodyForm::Sphere => -r2 / (radius + (radius * radius - r2).sqrt()),
                 BodyForm::Paraboloid => -r2 / (2.0 * radius),
                 BodyForm::Cone => -slope * r2.sqrt(),
-                BodyForm::Wave => {
-                    amplitude * (TAU * f64::from(mx) * x / lx).cos() * (TAU * f64::from(my) * y / ly).cos()
-                }
+                BodyForm::Wave => amplitude * (TAU * mx as f64 * x / lx).cos() * (TAU * my as f64 * y / ly).cos(),
                 BodyForm::FlatPunch if r2 <= radius * radius => 0.0,
                 BodyForm::FlatPunch => f64::NAN,
             }
@@ -193,8 +167,8 @@ impl Body {
 }
 
 /// One value or two; the second is zero if left out.
-fn pair<T: Copy + Default>(values: Option<&[T]>) -> Option<(T, T)> {
-    match values? {
+fn pair<T: Copy + Default>(values: &[T]) -> Option<(T, T)> {
+    match values {
         [x] => Some((*x, T::default())),
         [x, y, ..] => Some((*x, *y)),
         [] => None,
@@ -239,45 +213,18 @@ keys! {
     }
 }
 
-/// Self-affine roughness, if it has an amplitude; see [`SelfAffine`].
-#[derive(Clone, Debug, Deserialize)]
-#[serde(default)]
-pub struct Roughness {
-    /// The root mean square of the heights.
-    pub rms_height: Option<f64>,
-    /// The root mean square of the slope.
-    pub rms_slope: Option<f64>,
-    /// The Hurst exponent.
-    pub hurst: f64,
-    /// The wave number of the longest waves.
-    pub k_l: f64,
-    /// The wave number up to which the spectrum is constant.
-    pub k_r: Option<f64>,
-    /// The wave number of the shortest waves.
-    pub k_s: f64,
-    /// Whether only phases are random.
-    pub random_phase: bool,
-    /// The seed of the random numbers.
-    pub seed: u64,
-}
-
-impl Default for Roughness {
-    fn default() -> Self {
-        let (rms_height, rms_slope, k_r, random_phase, seed) = (None, None, None, false, 0);
-        Self { rms_height, rms_slope, hurst: 0.8, k_l: 4.0, k_r, k_s: 64.0, random_phase, seed }
-    }
-}
-
-impl Roughness {
+impl RoughnessKeys {
     /// The generator of the roughness; none without an amplitude, or with two.
     pub fn self_affine(&self) -> Option<SelfAffine> {
-        let &Self { hurst, k_l, k_s, random_phase, seed, .. } = self;
+        let usual = SelfAffine::default();
         let amplitude = match (self.rms_height, self.rms_slope) {
             (Some(height), None) => Amplitude::RmsHeight(height),
             (None, Some(slope)) => Amplitude::RmsSlope(slope),
             _ => return None,
         };
-        let rough = SelfAffine::default().hurst(hurst).k_l(k_l).k_r(self.k_r.unwrap_or(k_l)).k_s(k_s);
-        Some(rough.amplitude(amplitude).random_phase(random_phase).seed(seed))
+        let (k_l, k_s) = (self.k_l.unwrap_or(usual.k_l), self.k_s.unwrap_or(usual.k_s));
+        let rough = usual.hurst(self.hurst.unwrap_or(usual.hurst)).k_l(k_l).k_r(self.k_r.unwrap_or(k_l)).k_s(k_s);
+        let rough = rough.amplitude(amplitude).random_phase(self.random_phase);
+        Some(rough.seed(self.seed.unwrap_or(usual.seed)))
     }
 }

@@ -10,8 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Boundary, ENERGY, Entries, Form, Keys, Kind, LENGTH, PRESSURE, Range, Readable, Symbol, Units, Word, keys, needed,
-    record,
+    Boundary, ENERGY, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Units, Word, keys, needed, readable, record,
 };
 
 keys! {
@@ -106,12 +105,8 @@ record! {
     }
 }
 
-impl Readable for Option<Base> {
-    const FORM: Form = Form::Word;
-
-    fn read(given: &Entries, key: &str) -> Self {
-        given.named(key)
-    }
+readable! {
+    Option<Base>: Word = |value| serde_json::from_value(value?.clone()).ok();
 }
 
 impl Default for Elastic {

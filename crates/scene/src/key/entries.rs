@@ -4,11 +4,10 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use crate::key::synonyms::similar;
-use crate::key::{Form, Key, Keys, LengthsKeys, Quantities, Quantity, QuantityEntry, Values};
+use crate::key::{Form, Key, Keys, LengthsKeys, Quantities, Quantity, QuantityEntry, Values, readable};
 
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,12 +82,15 @@ fn shortened(text: &str) -> String {
 }
 
 impl Entries {
-    /// What a map of keys and values gives for some of the `known` keys; a value that is empty or false gives nothing.
+    /// What a map of keys and values gives for the keys of `lists`; a value that is empty or false gives nothing. Keys of
+    /// files are unknown: in their place Python has arrays and objects, and a page nothing.
     ///
     /// # Errors
     /// The key and the remedy, if it is not known, a value is none for it, or it needs another one, for
     /// [`worded`](crate::key::worded).
-    pub fn read(known: &[&'static Key], typed: impl IntoIterator<Item = (String, Input)>) -> Result<Self, String> {
+    pub fn read(lists: &[&'static [Key]], typed: impl IntoIterator<Item = (String, Input)>) -> Result<Self, String> {
+        let is_file = |key: &&Key| matches!(key.kind.values, Values::File);
+        let known: Vec<_> = lists.iter().copied().flatten().filter(|key| !is_file(key)).collect();
         let mut given = Self::default();
         for (name, typed) in typed {
             let Some(key) = known.iter().find(|key| key.name == name) else {
@@ -187,7 +189,7 @@ impl Entries {
     }
 
     /// The value of a key.
-    fn value(&self, name: &str) -> Option<&Value> {
+    pub(crate) fn value(&self, name: &str) -> Option<&Value> {
         self.get(name).map(|entry| &entry.read.value)
     }
 
@@ -224,11 +226,6 @@ impl Entries {
         })
     }
 
-    /// The variant of an enumeration that the word of a key names.
-    pub(crate) fn named<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
-        serde_json::from_value(self.value(name)?.clone()).ok()
-    }
-
     /// The word of a key.
     pub fn word(&self, name: &str) -> Option<&str> {
         self.value(name)?.as_str()
@@ -242,16 +239,6 @@ impl Entries {
             [lx] => Some((lx, lx / nx as f64 * ny as f64)),
             [] => None,
         }
-    }
-
-    /// The object with fields by the names of keys; keys that it does not have are left out.
-    ///
-    /// # Errors
-    /// The value that is none for its key.
-    pub fn object<T: DeserializeOwned>(&self) -> Result<T, String> {
-        let entries: Map<_, _> =
-            self.0.iter().map(|entry| (entry.key.name.to_owned(), entry.read.value.clone())).collect();
-        serde_json::from_value(entries.into()).map_err(|error| error.to_string())
     }
 
     /// The quantities, for their units.
@@ -283,19 +270,6 @@ pub trait Readable: Sized {
 
     /// What was given for a key.
     fn read(given: &Entries, key: &str) -> Self;
-}
-
-macro_rules! readable {
-    ($($type:ty: $form:ident = |$value:ident| $of:expr;)+) => {
-        $(impl Readable for $type {
-            const FORM: Form = Form::$form;
-
-            fn read(given: &Entries, key: &str) -> Self {
-                let $value = given.value(key);
-                $of
-            }
-        })+
-    };
 }
 
 readable! {

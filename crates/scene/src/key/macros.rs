@@ -34,6 +34,21 @@ macro_rules! keys {
 }
 pub(crate) use keys;
 
+/// How fields of types have the value that was given for their key.
+macro_rules! readable {
+    ($($type:ty: $form:ident = |$value:ident| $of:expr;)+) => {
+        $(impl $crate::Readable for $type {
+            const FORM: $crate::Form = $crate::Form::$form;
+
+            fn read(given: &$crate::Entries, key: &str) -> Self {
+                let $value = given.value(key);
+                $of
+            }
+        })+
+    };
+}
+pub(crate) use readable;
+
 /// An enumeration of words: their names, with what each stands for. The first is the default.
 #[macro_export]
 macro_rules! choice {

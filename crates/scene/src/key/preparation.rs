@@ -4,13 +4,11 @@ mod described;
 mod steps;
 
 use std::fmt::Display;
-use std::str::FromStr;
 
 use asperity::{Error, Result};
 use asperity_maps::io::check_memory;
 use asperity_maps::warning::{Warning, WarningCode};
-use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
-use serde::{Deserialize, Deserializer, de};
+use asperity_maps::{RowAlignment, ScanAxis, Topography, Trend};
 
 use crate::key::{Entries, LENGTH, Notice, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
@@ -18,54 +16,15 @@ pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 
 use described::{changed, described, described_form, holes, list_others, quantity, removed, rms, sides};
 
-/// The steps that make a surface of a measured map, in the order of the fields; no step by default.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(default)]
+/// The steps that make a surface of a measured map; no step by default.
+#[derive(Clone, Debug, Default)]
 pub struct Preparation {
+    /// The steps without lengths.
+    pub steps: StepKeys,
     /// The side lengths, with the unit of the map from then on.
-    #[serde(skip)]
     pub lengths: Option<((f64, f64), Option<String>)>,
-    /// The values that stand for missing points.
-    pub missing: Vec<f64>,
-    /// The factor of the heights.
-    pub scale: Option<f64>,
-    /// The unit of side lengths and heights.
-    pub unit: Option<String>,
-    /// The first node and the number of nodes to keep.
-    pub crop: Option<Vec<usize>>,
-    /// Whether peaks become valleys.
-    pub flip: bool,
-    /// Whether the map is cleaned by the steps that an AFM needs.
-    pub clean: bool,
-    /// The parts of that to leave out.
-    pub without: Vec<String>,
-    /// The alignment of scan lines.
-    #[serde(deserialize_with = "align_rows")]
-    pub align_rows: Option<RowAlignment>,
-    /// The direction of the scan lines.
-    #[serde(deserialize_with = "scan_axis")]
-    pub scan_axis: Option<ScanAxis>,
-    /// The threshold of scars to replace.
-    pub remove_scars: Option<f64>,
-    /// The threshold of spikes to replace.
-    pub despike: Option<f64>,
-    /// The form to subtract.
-    #[serde(deserialize_with = "remove_form")]
-    pub remove_form: Option<Form>,
-    /// The trend to subtract.
-    #[serde(deserialize_with = "detrend")]
-    pub detrend: Option<Trend>,
-    /// Whether to fill missing points.
-    pub fill: bool,
-    /// The share of the sides that is tapered at each edge.
-    pub window: Option<f64>,
-    /// Whether to continue the map by its mirror images.
-    pub mirror: bool,
     /// The cut-off wavelength, in the unit of the map.
-    #[serde(skip)]
     pub cut_off_wavelength: Option<f64>,
-    /// The nodes on which to interpolate.
-    pub resample: Option<Vec<usize>>,
 }
 
 impl Entries {
@@ -79,7 +38,7 @@ impl Entries {
         si: bool,
         unit: Option<&str>,
     ) -> std::result::Result<Preparation, String> {
-        let mut steps: Preparation = self.object()?;
+        let mut steps = Preparation { steps: self.keys(), ..Preparation::default() };
         self.lengths(shape).map_or(Ok(()), |lengths| steps.set_lengths(lengths, si, unit))?;
         let cut_off = self.keys::<CutOffKeys>().cut_off_wavelength;
         cut_off.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, si, unit))?;
@@ -120,14 +79,16 @@ impl Log {
 impl Preparation {
     /// The steps with the steps of a cleaning.
     fn cleaned(mut self) -> Self {
-        let has = |part: &str| !self.without.iter().any(|without| without == part);
+        let steps = &mut self.steps;
+        steps.clean = false;
+        let has = |part: &str| !steps.without.iter().any(|without| without == part);
         let [rows, scars, spikes, plane, holes] = StepKeys::OF_CLEAN.map(has);
-        self.align_rows = self.align_rows.or(rows.then_some(RowAlignment::Median));
-        self.remove_scars = self.remove_scars.or(scars.then_some(0.667));
-        self.despike = self.despike.or(spikes.then_some(10.0));
-        self.detrend = self.detrend.or(plane.then_some(Trend::Plane));
-        self.fill |= holes;
-        Self { clean: false, ..self }
+        steps.align_rows = steps.align_rows.or(rows.then_some(RowAlignment::Median));
+        steps.remove_scars = steps.remove_scars.or(scars.then_some(0.667));
+        steps.despike = steps.despike.or(spikes.then_some(10.0));
+        steps.detrend = steps.detrend.or(plane.then_some(Trend::Plane));
+        steps.fill |= holes;
+        self
     }
 
     /// Gives the map side lengths; those in metres are brought to the unit that the map will have.
@@ -166,7 +127,7 @@ impl Preparation {
 
     /// The unit that the map will have, which is of length, and its power of ten, for what `has` a unit.
     fn unit_of_lengths(&self, has: &str, of_map: Option<&str>) -> std::result::Result<(String, i32), String> {
-        let unit = self.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
+        let unit = self.steps.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
         let power = power_of_length(unit).ok_or_else(|| {
             format!("{has} a unit, but the map is in {unit}, which is no unit of length: give {{unit}}, such as nm")
         })?;
@@ -178,18 +139,18 @@ impl Preparation {
     /// # Errors
     /// Errors of the steps: see [`Topography`].
     pub fn run(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
-        if self.clean {
+        if self.steps.clean {
             return self.clone().cleaned().run(map, log);
         }
         log.tell("read", format!("{}{}", described(&map), list_others(&map)));
         map = self.interpret(map, log)?;
         let has_codes = !log.warnings.is_empty();
-        if let Some(&[x, y, nx, ny]) = self.crop.as_deref() {
+        if let [x, y, nx, ny] = self.steps.crop[..] {
             map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
             log.tell("crop", format!("from index [{x}, {y}] on: {}", described(&map)));
         }
         log.warn(Warning::of_topography(&map).into_iter().filter(is_no_height), &map);
-        if self.flip {
+        if self.steps.flip {
             map = map.flip();
             log.tell("flip", "peaks are valleys now");
         }
@@ -213,16 +174,16 @@ impl Preparation {
             (map.lengths, map.unit) = (Some(*lengths), unit.clone());
             log.tell("lengths", format!("{}, before {before}", sides(*lengths, unit.as_deref())));
         }
-        for code in &self.missing {
+        for code in &self.steps.missing {
             let before = map.missing();
             map = map.declare_missing(*code);
             let (found, nodes) = (map.missing() - before, map.heights.len());
             log.tell_rms("missing", format!("{} stood at {found} of {nodes} points", plain(*code)), &map);
         }
         log.warn(Warning::of_topography(&map).into_iter().filter(is_code), &map);
-        if let Some(factor) = self.scale {
+        if let Some(factor) = self.steps.scale {
             let to_metres = map.unit.as_deref().and_then(power_of_length).filter(|power| *power != 0);
-            if self.unit.is_none() && to_metres.is_some_and(|power| factor == times_ten_to(power, 1.0)) {
+            if self.steps.unit.is_none() && to_metres.is_some_and(|power| factor == times_ten_to(power, 1.0)) {
                 let requirement =
                     "left out, since the file tells the unit, or next to unit m, if heights are in m then";
                 return Err(Error::Value { name: "scale", value: factor, requirement });
@@ -230,7 +191,7 @@ impl Preparation {
             map.heights.mapv_inplace(|h| factor * h);
             log.tell_rms("scale", format!("heights times {}", plain(factor)), &map);
         }
-        if let Some(unit) = &self.unit {
+        if let Some(unit) = &self.steps.unit {
             let before = map.unit.replace(unit.clone()).unwrap_or("unknown".to_owned());
             log.tell("unit", format!("{unit}, before {before}"));
         }
@@ -239,9 +200,9 @@ impl Preparation {
 
     /// Removes what scanning leaves: offsets between lines, scars and spikes.
     fn clean_lines(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
-        let along = self.scan_axis.unwrap_or(ScanAxis::X);
+        let along = self.steps.scan_axis.unwrap_or(ScanAxis::X);
         let axis = if along == ScanAxis::X { "x" } else { "y" };
-        if let Some(alignment) = self.align_rows {
+        if let Some(alignment) = self.steps.align_rows {
             let (before, heights) = (rms(&map), map.heights.clone());
             log.warn(Warning::of_lines(&map, along), &map);
             map = map.align_rows(alignment, along)?;
@@ -250,7 +211,7 @@ impl Preparation {
             let what = format!("{lines} lines along {axis} {}", changed(&heights, &map));
             log.tell_change("align-rows", what, &map, &before);
         }
-        if let Some(threshold) = self.remove_scars {
+        if let Some(threshold) = self.steps.remove_scars {
             let (scars, before, nodes) = (map.scars(threshold, along)?, rms(&map), map.heights.len());
             let (count, points) = (scars.count, scars.map.iter().filter(|&&on_scar| on_scar).count());
             let limit = quantity(scars.limit, &map);
@@ -264,7 +225,7 @@ impl Preparation {
             };
             log.tell_change("remove-scars", what, &map, &before);
         }
-        if let Some(threshold) = self.despike {
+        if let Some(threshold) = self.steps.despike {
             let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
             map = map.despike(threshold)?;
             let limit = quantity(spikes.limit, &map);
@@ -284,18 +245,18 @@ impl Preparation {
 
     /// Subtracts form and trend, and fills missing points.
     fn level(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
-        if let Some(form) = self.remove_form {
+        if let Some(form) = self.steps.remove_form {
             let (fit, before) = (map.fit_form(form)?, rms(&map));
             map = map.remove_form(form)?;
             log.tell_change("remove-form", format!("{} removed", described_form(&fit, &map)), &map, &before);
         }
-        if let Some(trend) = self.detrend {
+        if let Some(trend) = self.steps.detrend {
             let before = map.clone();
             map = map.detrend(trend)?;
             let what = removed(trend, &before, &map)?;
             log.tell_change("detrend", what, &map, &rms(&before));
         }
-        if self.fill {
+        if self.steps.fill {
             let (missing, nodes) = (map.missing(), map.heights.len());
             map = map.fill()?;
             log.tell_rms("fill", format!("{missing} of {nodes} points filled"), &map);
@@ -305,13 +266,13 @@ impl Preparation {
 
     /// Makes a map periodic, and chooses its waves and nodes.
     fn continue_periodically(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
-        if let Some(fraction) = self.window {
+        if let Some(fraction) = self.steps.window {
             let before = rms(&map);
             map = map.window(fraction)?;
             let what = format!("{} % of the sides tapered at each edge", plain(100.0 * fraction));
             log.tell_change("window", what, &map, &before);
         }
-        if self.mirror {
+        if self.steps.mirror {
             let (nx, ny) = map.heights.dim();
             check_memory("a mirrored map", (2 * nx, 2 * ny), 8)?;
             map = map.mirror();
@@ -328,7 +289,7 @@ impl Preparation {
             let before = format!("{}, rms slope by differences {to} from {from}", rms(&before));
             log.tell_change("cut-off-wavelength", what, &map, &before);
         }
-        if let Some(&[nx, ny]) = self.resample.as_deref() {
+        if let [nx, ny] = self.steps.resample[..] {
             let before = rms(&map);
             map = map.resample((nx, ny))?;
             let moved = "nodes moved to the middles of their cells";
@@ -368,22 +329,3 @@ pub fn in_unit(mut map: Topography, unit: &str) -> std::result::Result<Topograph
     }
     Ok(map)
 }
-
-/// A step by its name, which the error of another one has in front.
-fn named<'de, S: FromStr<Err: Display>, D: Deserializer<'de>>(
-    key: &str,
-    from: D,
-) -> std::result::Result<Option<S>, D::Error> {
-    let Some(name) = Option::<String>::deserialize(from)? else { return Ok(None) };
-    name.parse().map(Some).map_err(|expected| de::Error::custom(format!("{key} is {name}: {expected}")))
-}
-
-macro_rules! steps {
-    ($($key:ident: $step:ty,)*) => {
-        $(fn $key<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<$step>, D::Error> {
-            named(stringify!($key), from)
-        })*
-    };
-}
-
-steps! { align_rows: RowAlignment, scan_axis: ScanAxis, remove_form: Form, detrend: Trend, }

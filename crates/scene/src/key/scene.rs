@@ -6,9 +6,7 @@ use asperity::solver::Method;
 use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
 
-use crate::key::{
-    Adhesion, AdhesionKeys, Elastic, Entries, Form, Kind, Range, Readable, SurfaceKeys, Word, choice, keys,
-};
+use crate::key::{Adhesion, AdhesionKeys, Elastic, Entries, Kind, Range, SurfaceKeys, Word, choice, keys, readable};
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
 /// has the keys of a report, which are left out where they have their defaults.
@@ -85,12 +83,8 @@ keys! {
     }
 }
 
-impl Readable for Option<Method> {
-    const FORM: Form = Form::Word;
-
-    fn read(given: &Entries, key: &str) -> Self {
-        given.named(key)
-    }
+readable! {
+    Option<Method>: Word = |value| serde_json::from_value(value?.clone()).ok();
 }
 
 /// The files of a problem.

@@ -4,10 +4,11 @@ use std::str::FromStr;
 
 use asperity_maps::{Form, RowAlignment, ScanAxis, Trend};
 
-use crate::key::{Kind, LENGTH, Range, Word, is_unit, keys};
+use crate::key::{Kind, LENGTH, Range, Word, is_unit, keys, readable};
 
 keys! {
     /// The steps that make a surface of a measured map, in their order but for those with lengths.
+    #[derive(Default)]
     StepKeys {
         "" {
             /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
@@ -28,9 +29,9 @@ keys! {
             without: Vec<String> = Kind::word(|| Word::all(&StepKeys::OF_CLEAN), &["PART"]).commas().needs(&["clean"]),
             /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line,
             /// for large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
-            align_rows: Option<String> = Kind::text(|text| RowAlignment::from_str(text).map(drop), &["METHOD"]),
+            align_rows: Option<RowAlignment> = Kind::text(|text| RowAlignment::from_str(text).map(drop), &["METHOD"]),
             /// Direction of the scan lines of {align_rows} and {remove_scars} [default: x]
-            scan_axis: Option<String> = Kind::word(|| Word::all(&ScanAxis::NAMES), &["SCAN_AXIS"]).needs(&["align_rows|remove_scars|clean"]),
+            scan_axis: Option<ScanAxis> = Kind::word(|| Word::all(&ScanAxis::NAMES), &["SCAN_AXIS"]).needs(&["align_rows|remove_scars|clean"]),
             /// Replace scars by the heights around them. Scars are pieces of one to four scan lines, at least 16 nodes
             /// long, that are everywhere higher, or everywhere lower, than both neighbouring lines, by more than this
             /// many rms differences of neighbouring lines [default: 0.667 if {remove_scars} has no value]
@@ -39,10 +40,10 @@ keys! {
             /// standard deviations of all nodes [default: 10 if {despike} has no value]
             despike: Option<f64> = Kind::number(Range::POSITIVE, &["THRESHOLD"]).alone("10"),
             /// Subtract the sphere or the circular cylinder that fits all measured points best
-            remove_form: Option<String> = Kind::word(|| Word::all(&Form::NAMES), &["FORM"]),
+            remove_form: Option<Form> = Kind::word(|| Word::all(&Form::NAMES), &["FORM"]),
             /// Subtract the least-squares fit to all measured points: mean, plane, quadric (such as a sphere or a
             /// cylinder), or a polynomial of this order, up to 12
-            detrend: Option<String> = Kind::text(|text| Trend::from_str(text).map(drop), &["TREND"]),
+            detrend: Option<Trend> = Kind::text(|text| Trend::from_str(text).map(drop), &["TREND"]),
             /// Fill missing points smoothly from their surroundings, by Laplace's equation
             fill: bool = Kind::switch(),
             /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up
@@ -78,6 +79,13 @@ keys! {
             cut_off_wavelength: Option<f64> = Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"]),
         }
     }
+}
+
+readable! {
+    Option<RowAlignment>: Word = |value| value?.as_str()?.parse().ok();
+    Option<ScanAxis>: Word = |value| value?.as_str()?.parse().ok();
+    Option<Form>: Word = |value| value?.as_str()?.parse().ok();
+    Option<Trend>: Word = |value| value?.as_str()?.parse().ok();
 }
 
 impl StepKeys {
