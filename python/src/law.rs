@@ -209,8 +209,7 @@ pub fn tabulated<'py>(
 /// The law of a file with a gap and a traction on each line.
 #[pyfunction]
 pub fn read_law(py: Python<'_>, path: PathBuf) -> PyResult<Table<'_>> {
-    let read = asperity_maps::io::read_field(&path).map_err(refusal)?;
-    let law = asperity_scene::tabulated(&path, &read).map_err(refusal)?;
+    let (law, read) = asperity_scene::read_law(&path).map_err(refusal)?;
     let columns = [0, 1].map(|column| read.column(column).to_vec());
     Ok(table(py, law, columns, Some(path.to_string_lossy().into_owned())))
 }

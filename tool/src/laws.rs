@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{Kind, LAWS, Law, Scalar, Skin, Word, keys};
+use asperity_scene::{Kind, LAWS, Law, Scalar, Skin, Word, keys, read_law};
 
-use crate::adhesion::table_of;
 use crate::command::Call;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
@@ -68,7 +67,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
         return Err(format!("--law {name} has the range of a grid, so that there is no curve without one").into());
     }
     let table = scene.given.files().law_table;
-    let tabulated = table.as_deref().map(table_of).transpose()?;
+    let tabulated = table.as_deref().map(read_law).transpose()?;
     let law = f64::law(adhesion.formula(tabulated.as_ref().map(|(law, _)| law))?);
     check_apart(path, table.as_deref())?;
     let file = OutputFile::create(path, force)?;

@@ -31,7 +31,6 @@ mod surface;
 mod sweep;
 
 // the parts that make commands
-mod adhesion;
 mod citation;
 mod command;
 mod entries;

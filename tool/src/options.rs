@@ -5,10 +5,9 @@ use std::path::Path;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, read_topography};
 pub use asperity_scene::Scalar;
-use asperity_scene::{After, Case, Entries, Files, Map, Maps, Objects, Posed, Session, Skin};
+use asperity_scene::{After, Case, Entries, Files, Map, Maps, Objects, Posed, Session, Skin, read_law};
 use ndarray::Array2;
 
-use crate::adhesion::table_of;
 use crate::heights::{named, rows_of, shared};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
@@ -56,7 +55,7 @@ impl ProblemOptions {
             let against = files.against.as_deref().map(other).transpose()?;
             let field = |path: &Option<_>| path.as_ref().map(read_field).transpose();
             let (hardness, works) = (field(&files.hardness_map)?, field(&files.work_of_adhesion_map)?);
-            let (law, table) = files.law_table.as_deref().map(table_of).transpose()?.unzip();
+            let (law, table) = files.law_table.as_deref().map(read_law).transpose()?.unzip();
             threads::use_threads(case.given().threads())?;
             let maps = Maps { against, hardness, works: works.clone(), table: law, ..Maps::new(heights) };
             Ok((maps, table, works))

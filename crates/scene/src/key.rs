@@ -47,7 +47,7 @@ pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use self::entries::{Choice, Entries, Input, Readable};
 pub use self::keywords::KEYWORDS;
 pub use self::kind::{Form, Kind, Values, Word};
-pub use self::laws::{LAWS, Law, tabulated};
+pub use self::laws::{LAWS, Law, read_law};
 pub use self::leak::{LeakAsked, LeakKeys};
 pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
 pub use self::notice::Notice;

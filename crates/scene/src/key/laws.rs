@@ -4,7 +4,8 @@ use std::path::Path;
 
 use asperity::adhesion::Formula;
 use asperity::{Error, Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
-use ndarray::ArrayRef2;
+use asperity_maps::io::read_field;
+use ndarray::Array2;
 
 use crate::key::{Adhesion, AdhesionKeys, Key, Keys, Skin, Wall, needed, worded};
 
@@ -153,11 +154,12 @@ impl Law {
     }
 }
 
-/// The law of a table of gaps and tractions, which was read from a file.
+/// The law of a table of gaps and tractions in a file, and the table.
 ///
 /// # Errors
-/// [`Error::File`] unless the table has two columns that make a law.
-pub fn tabulated(path: &Path, table: &ArrayRef2<f64>) -> Result<Tabulated> {
+/// Errors of the file, and [`Error::File`] unless the table has two columns that make a law.
+pub fn read_law(path: &Path) -> Result<(Tabulated, Array2<f64>)> {
+    let table = read_field(path)?;
     if table.ncols() != 2 {
         let columns = table.ncols();
         return Err(Error::file(
@@ -166,5 +168,6 @@ pub fn tabulated(path: &Path, table: &ArrayRef2<f64>) -> Result<Tabulated> {
         ));
     }
     let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
-    Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))
+    let law = Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))?;
+    Ok((law, table))
 }
