@@ -3,8 +3,10 @@
 use asperity_curve::{
     Curve as Points, Fit, Model, Parameters, Prediction, Scale, Scales, Search, Sides, greatest_root,
 };
-use numpy::ndarray::{Array1, Array2, Array3, ArrayView2};
-use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, ToPyArray};
+use numpy::ndarray::{Array1, Array2, Array3, ArrayView2, ShapeError};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, ToPyArray,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -97,11 +99,11 @@ impl Curve {
             return Err(PyValueError::new_err("each model needs a word on its work of adhesion"));
         }
         let asked = Search { models, rows, adheres, full, begins, jumps, least };
-        let (fits, predictions) = py.detach(|| {
+        let found = py.detach(|| {
             let fits = asked.search(&self.0);
-            let predictions = Predictions::compute(&self.0, models, &fits);
-            (fits, predictions)
+            predict(&self.0, models, &fits).map(|predictions| (fits, predictions))
         });
+        let (fits, (load, load_by, off, off_by)) = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
         let table = |of: &dyn Fn(&Fit) -> [f64; 4]| Array2::from_shape_fn((fits.len(), 4), |(k, i)| of(&fits[k])[i]);
         let parameters = table(&|fit| {
             let Parameters { log_modulus, root_work, point, log_tabor } = fit.parameters;
@@ -116,10 +118,10 @@ impl Curve {
             parameters.to_pyarray(py),
             Array2::from_shape_fn((fits.len(), 4), |(k, i)| fits[k].free[i]).to_pyarray(py),
             Array1::from_iter(fits.iter().map(|fit| fit.squares)).to_pyarray(py),
-            predictions.load.to_pyarray(py),
-            predictions.load_by.to_pyarray(py),
-            predictions.off.to_pyarray(py),
-            predictions.off_by.to_pyarray(py),
+            load.into_pyarray(py),
+            load_by.into_pyarray(py),
+            off.into_pyarray(py),
+            off_by.into_pyarray(py),
             seen.to_pyarray(py),
         ))
     }
@@ -172,40 +174,24 @@ fn known(models: &[Model], mut numbers: impl Iterator<Item = usize>) -> PyResult
     }
 }
 
-/// What fits predict.
-struct Predictions {
-    load: Array2<f64>,
-    load_by: Array3<f64>,
-    off: Array2<f64>,
-    off_by: Array3<f64>,
-}
+/// What fits predict: loads at the points and their derivatives, jumps off and their derivatives.
+type Predictions = (Array2<f64>, Array3<f64>, Array2<f64>, Array3<f64>);
 
-impl Predictions {
-    fn compute(curve: &Points, models: &[Model], fits: &[Fit]) -> Self {
-        let (count, points) = (fits.len(), curve.z.len());
-        let mut predictions = Self {
-            load: Array2::zeros((count, points)),
-            load_by: Array3::zeros((count, points, 4)),
-            off: Array2::zeros((count, 2)),
-            off_by: Array3::zeros((count, 2, 4)),
-        };
-        let mut room = Prediction::default();
-        for (k, fit) in fits.iter().enumerate() {
-            curve.predict(&models[fit.model], &fit.parameters, &fit.sides, &mut room);
-            let fill = |into: &mut [f64], from: &[f64]| into.copy_from_slice(from);
-            if let Some(into) = predictions.load.row_mut(k).as_slice_mut() {
-                fill(into, &room.load);
-            }
-            if let Some(into) = predictions.load_by.index_axis_mut(numpy::ndarray::Axis(0), k).as_slice_mut() {
-                fill(into, room.load_by.as_flattened());
-            }
-            if let Some(into) = predictions.off.row_mut(k).as_slice_mut() {
-                fill(into, &room.off);
-            }
-            if let Some(into) = predictions.off_by.index_axis_mut(numpy::ndarray::Axis(0), k).as_slice_mut() {
-                fill(into, room.off_by.as_flattened());
-            }
-        }
-        predictions
+fn predict(curve: &Points, models: &[Model], fits: &[Fit]) -> Result<Predictions, ShapeError> {
+    let (count, points) = (fits.len(), curve.z.len());
+    let (mut load, mut load_by, mut off, mut off_by) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut room = Prediction::default();
+    for fit in fits {
+        curve.predict(&models[fit.model], &fit.parameters, &fit.sides, &mut room);
+        load.extend_from_slice(&room.load);
+        load_by.extend_from_slice(room.load_by.as_flattened());
+        off.extend_from_slice(&room.off);
+        off_by.extend_from_slice(room.off_by.as_flattened());
     }
+    Ok((
+        Array2::from_shape_vec((count, points), load)?,
+        Array3::from_shape_vec((count, points, 4), load_by)?,
+        Array2::from_shape_vec((count, 2), off)?,
+        Array3::from_shape_vec((count, 2, 4), off_by)?,
+    ))
 }
