@@ -8,6 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use asperity::solver::Iteration as State;
+use asperity_scene::Watch;
 use pyo3::exceptions::{PyRuntimeError, PyStopIteration};
 use pyo3::prelude::*;
 
@@ -65,9 +66,6 @@ getters! {
     smoothed: bool,
 }
 
-/// An observer as the library calls it.
-pub type Observe<'a> = &'a mut (dyn FnMut(&State) -> ControlFlow<()> + Send);
-
 /// Whether work continues, as the library asks.
 pub type GoesOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
@@ -114,7 +112,7 @@ impl At<'_> {
     /// The lock of the interpreter is free meanwhile. This thread sleeps, wakes for signals, and calls the observer of
     /// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception
     /// here.
-    pub fn run<R: Send>(&self, work: impl FnOnce(Observe<'_>, GoesOn<'_>) -> R + Send) -> PyResult<(R, Option<PyErr>)> {
+    pub fn run<R: Send>(&self, work: impl FnOnce(Watch<'_>, GoesOn<'_>) -> R + Send) -> PyResult<(R, Option<PyErr>)> {
         let &Self { py, ref pool, ref observer } = self;
         let (stop, result) = (AtomicBool::new(false), Mutex::new(None));
         let (stop_flag, slot, observed) = (&stop, &result, observer.is_some());

@@ -21,7 +21,7 @@ pub use hash::Hash;
 pub use key::*;
 pub use session::limit::{CycleLevel, CycleLimit, CycleLimits};
 pub use session::way::Way;
-pub use session::{AnyRows, AnySession, Facts, Next, Observe, OneGrid, Rows, Session, Solved, TableFile};
+pub use session::{AnyRows, AnySession, Facts, Next, Observe, OneGrid, Rows, Session, Solved, TableFile, Watch};
 pub use session::{fall, pace};
 pub use table::Format;
 pub use table::fields::{gap_to_write, write_fields};

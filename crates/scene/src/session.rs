@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use asperity::contact::{ContactStatistics, Region};
 use asperity::solver::Iteration;
-use asperity::{AdhesionLaw, Control, Grid, PullOff, Real, Result, Solver, Status, Surface};
+use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solver, Status, Surface};
 use asperity_maps::warning::WarningCode;
 use ndarray::Array2;
 use serde_json::json;
@@ -26,7 +26,7 @@ use crate::Either;
 use crate::account::row::Kind;
 use crate::account::{Account, Answer, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
 use crate::case::{Part, Posed};
-use crate::key::{After, Constraint, Goal, Notice, Precision, Request, Scalar, Scene, Skin, Units, worded};
+use crate::key::{After, Constraint, Notice, Precision, Scalar, Scene, Skin, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::limit::Chosen;
@@ -36,6 +36,9 @@ use crate::table::warnings::Warnings;
 /// The observer of a solve: it sees each iteration with the grid and the tolerance of the solve on it, and may end the
 /// solve.
 pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
+
+/// What sees the states of a solve along loads, and may stop it.
+pub type Watch<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
 
 /// The session of a contact problem in one precision, before it is solved: a solve, a pull-off and the rows of a table take
 /// it along, and heights that nothing else holds leave as soon as they can.
@@ -172,33 +175,6 @@ impl<T: Scalar> Session<T> {
     /// The grid of the surface.
     pub fn grid(&self) -> &Grid {
         self.surface.grid()
-    }
-
-    /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it, and its
-    /// account.
-    ///
-    /// # Errors
-    /// Errors of the solvers of the library, a solve that ran away, and warnings, if they are errors.
-    pub fn solve(self, asked: &Request, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
-        let asked = Request { control: self.facts.on_whole(asked.control), ..*asked };
-        let (found, facts) = self.find(&asked, start, observe)?;
-        facts.solved("solve", found)
-    }
-
-    /// The pull-off, to an accuracy if one is asked for, from a gap or the default start, with the last state that
-    /// holds.
-    ///
-    /// # Errors
-    /// As [`Session::solve`].
-    pub fn pull_off(
-        self,
-        asked: PullOff,
-        goal: Option<Goal>,
-        start: Option<Array2<T>>,
-        observe: Observe<'_>,
-    ) -> Outcome<(Solved<T>, PulledOff)> {
-        let (found, pulled_off, facts) = self.find_pull_off(asked, goal, start, observe)?;
-        Ok((facts.solved("pull-off", found)?, pulled_off))
     }
 }
 

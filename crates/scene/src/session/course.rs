@@ -1,10 +1,8 @@
 //! The course of a sweep or a cycle, and the rows of its table.
 
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 
 use asperity::path::{Path, PathEnd, PathSettings};
-use asperity::solver::Iteration;
 use asperity::{Branch, ContactSearch, Control, Error, Grid, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
@@ -18,7 +16,7 @@ use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::session::pace::Pace;
 use crate::session::way::Way;
-use crate::session::{OneGrid, Session};
+use crate::session::{OneGrid, Session, Watch};
 use crate::table::identity::Identity;
 use crate::table::journal::{damaged, refused};
 use crate::table::{Opening, Table};
@@ -273,11 +271,7 @@ impl<T: Scalar> Course<T> {
     ///
     /// # Errors
     /// Errors of the solvers of the library; after one the place is lost.
-    pub fn next(
-        &mut self,
-        one: &mut OneGrid<T>,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Result<Option<Answer<T>>> {
+    pub fn next(&mut self, one: &mut OneGrid<T>, observe: Watch<'_>) -> Result<Option<Answer<T>>> {
         if self.is_over {
             return Ok(None);
         }

@@ -1,23 +1,21 @@
 //! The limit of no range of a cycle, by the same cycle on coarser grids, and the grid on which it has an accuracy.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use asperity::accuracy::{LoopGrid, LoopLimit};
 use asperity::path::{PathEnd, PathSettings};
-use asperity::solver::Iteration;
 use asperity::{AdhesionLaw, Control, Real, Status, Surface};
 use ndarray::Array2;
 use serde::Serialize;
 
 use crate::account::{Refinement, bytes};
 use crate::case::Part;
-use crate::key::{After, ENERGY_PER_AREA, Goal, PRESSURE, Scalar, Skin, record, worded};
+use crate::key::{After, ENERGY_PER_AREA, Goal, PRESSURE, Request, Scalar, Scene, Skin, record, worded};
 use crate::numbers::percent;
 use crate::outcome::Outcome;
 use crate::session::course::Course;
 use crate::session::way::Way;
-use crate::session::{Facts, Observe, Rows, Session};
+use crate::session::{Facts, Observe, Rows, Session, Watch};
 use crate::table::warnings::Warnings;
 
 record! {
@@ -142,16 +140,9 @@ impl<T: Scalar> Session<T> {
     /// [`Accuracy::loop_grid`](asperity::accuracy::Accuracy::loop_grid) and of the solvers of the library.
     pub fn refine(&mut self, way: &Way, goal: Goal, is_started: bool, observe: Observe<'_>) -> Outcome<String> {
         let Way::Cycle(loads, settings) = way else { return Err("an accuracy of a table is of a cycle".into()) };
-        let refused = match () {
-            () if is_started => "an accuracy makes its own start and chooses the grids: leave out {initial_gap}",
-            () if self.facts.scene.adhesion.yields() => {
-                "{accuracy} and {hardness}: the error of the grid is known of elastic contact alone: leave one of them out"
-            }
-            () => "",
-        };
-        if !refused.is_empty() {
-            return self.facts.worded(Err(refused.to_owned()));
-        }
+        let Scene { adhesion, method, .. } = &self.facts.scene;
+        let asked = Request { goal: Some(goal), ..Request::under(way.control(&self.facts.scene)) };
+        self.facts.worded(asked.check(adhesion, *method, is_started))?;
         self.facts.processes.alone("the accuracy of a cycle")?;
         let tolerance = self.tolerance(None)?;
         let mut operator = self.facts.scene.elastic.operator::<T>(*self.grid())?;
@@ -216,7 +207,7 @@ impl<T: Scalar> Session<T> {
 
 impl<T: Scalar> Rows<T> {
     /// The end of the cycle, which is followed to there; none if an observer ends a solve.
-    fn end(&mut self, observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send)) -> Outcome<Option<PathEnd>> {
+    fn end(&mut self, observe: Watch<'_>) -> Outcome<Option<PathEnd>> {
         while let Some((found, _)) = self.next(&mut *observe)? {
             if found.solution.report.status == Status::Stopped {
                 return Ok(None);
@@ -236,10 +227,7 @@ impl<T: Scalar> Rows<T> {
     ///
     /// # Errors
     /// Errors of the solvers of the library.
-    pub fn cycle_limit(
-        &mut self,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<CycleLimits>> {
+    pub fn cycle_limit(&mut self, observe: Watch<'_>) -> Outcome<Option<CycleLimits>> {
         let (mut levels, accuracy) = match self.coarser.take() {
             None => return Ok(None),
             Some(Coarser::Behind(chosen)) => (chosen.levels, Some(chosen.accuracy)),

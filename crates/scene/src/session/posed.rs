@@ -14,7 +14,7 @@ use crate::clock::Instant;
 use crate::key::{Goal, Load, Scalar};
 use crate::outcome::Outcome;
 use crate::session::fall::time;
-use crate::session::{Facts, Observe, OneGrid, Session};
+use crate::session::{Observe, OneGrid, Session, Solved};
 
 /// The operator applications of a search for the pull-off, with those on coarser grids; of rough surfaces 200 to 1200.
 const PULL_OFF: f64 = 600.0;
@@ -124,14 +124,14 @@ impl<T: Scalar> Session<T> {
     /// With a law that has the range of the grid a coarser grid tells the error, unless a start is given.
     ///
     /// # Errors
-    /// As [`PullOff::find_from`] and [`Accuracy::pull_off`](asperity::accuracy::Accuracy::pull_off).
-    pub(super) fn find_pull_off(
+    /// As [`PullOff::find_from`], [`Accuracy::pull_off`](asperity::accuracy::Accuracy::pull_off) and [`Session::solve`].
+    pub fn pull_off(
         mut self,
         asked: PullOff,
         goal: Option<Goal>,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
-    ) -> Outcome<(Answer<T>, PulledOff, Facts)> {
+    ) -> Outcome<(Solved<T>, PulledOff)> {
         let (clock, of_grid) = (Instant::now(), self.law.hints().of_grid);
         let tolerance = self.tolerance(None)?;
         if goal.is_some() || start.is_none() && of_grid {
@@ -147,7 +147,8 @@ impl<T: Scalar> Session<T> {
                 let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
                 self.facts.warnings.add_of_input(vec![self.facts.units.describe(&few)])?;
             }
-            return Ok((Answer { refined: goal.map(|_| found.surface), ..last }, pulled_off, self.facts));
+            let last = Answer { refined: goal.map(|_| found.surface), ..last };
+            return Ok((self.facts.solved("pull-off", last)?, pulled_off));
         }
         let mut one = self.on_one_grid()?;
         let OneGrid { solver, problem, .. } = &mut one;
@@ -157,7 +158,7 @@ impl<T: Scalar> Session<T> {
         let last = one.examine(found.solution.clone(), clock)?;
         let untold = if of_grid { "a coarser grid has no start: leave out the start" } else { PulledOff::OF_A_RANGE };
         let pulled_off = PulledOff::record(asked, &found, &last.part()?.report, Err(untold), None);
-        Ok((last, pulled_off, one.facts))
+        Ok((one.facts.solved("pull-off", last)?, pulled_off))
     }
 }
 

@@ -1,9 +1,7 @@
 //! The rows of a session: its way through loads, state by state, and the file of its table.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use asperity::solver::Iteration;
 use asperity::{Error, Grid, Result, Status};
 use asperity_maps::warning::Warning;
 use ndarray::Array2;
@@ -17,7 +15,7 @@ use crate::session::course::Course;
 use crate::session::limit::Coarser;
 use crate::session::pace::Pace;
 use crate::session::way::Way;
-use crate::session::{Facts, OneGrid, Session};
+use crate::session::{Facts, OneGrid, Session, Watch};
 use crate::table::identity::{Fields, Identity, identity};
 use crate::table::output::with_suffix;
 use crate::table::warnings::{Warnings, path_for};
@@ -197,10 +195,7 @@ impl<T: Scalar> Rows<T> {
     /// # Errors
     /// Errors of the solvers of the library, a solve that ran away, warnings, if they are errors, and rows that another
     /// run has written since [`Self::release`].
-    pub fn seek(
-        &mut self,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<Next<T>>> {
+    pub fn seek(&mut self, observe: Watch<'_>) -> Outcome<Option<Next<T>>> {
         let before = self.course.clone();
         let found = self.find(observe);
         let course = std::mem::replace(&mut self.course, before);
@@ -208,10 +203,7 @@ impl<T: Scalar> Rows<T> {
     }
 
     /// Finds the next state, with its row.
-    fn find(
-        &mut self,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<(Answer<T>, Row)>> {
+    fn find(&mut self, observe: Watch<'_>) -> Outcome<Option<(Answer<T>, Row)>> {
         let Self { one, course, table, coarser } = self;
         if let Some(table) = table {
             one.facts.processes.first(|| table.claim())?;
@@ -245,10 +237,7 @@ impl<T: Scalar> Rows<T> {
     ///
     /// # Errors
     /// As [`Self::seek`] and [`Self::keep`].
-    pub fn next(
-        &mut self,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<(Answer<T>, Row)>> {
+    pub fn next(&mut self, observe: Watch<'_>) -> Outcome<Option<(Answer<T>, Row)>> {
         let found = self.find(observe);
         let goes_on = |found: &(Answer<T>, Row)| found.0.solution.report.status != Status::Stopped;
         self.course.is_over |= !found.as_ref().is_ok_and(|found| found.as_ref().is_some_and(goes_on));

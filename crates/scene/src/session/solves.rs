@@ -13,7 +13,8 @@ use ndarray::Array2;
 use crate::account::{Answer, Refinement, Waves};
 use crate::clock::Instant;
 use crate::key::{Goal, Request, Scalar};
-use crate::session::{Facts, Observe, Session};
+use crate::outcome::Outcome;
+use crate::session::{Facts, Observe, Session, Solved};
 
 impl Facts {
     /// The solution and its sight, by a solve that began at a time.
@@ -31,16 +32,13 @@ impl Facts {
 }
 
 impl<T: Scalar> Session<T> {
-    /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it.
+    /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it, and its
+    /// account.
     ///
     /// # Errors
-    /// Errors of the solvers of the library.
-    pub(super) fn find(
-        self,
-        asked: &Request,
-        start: Option<Array2<T>>,
-        observe: Observe<'_>,
-    ) -> Result<(Answer<T>, Facts)> {
+    /// Errors of the solvers of the library, a solve that ran away, and warnings, if they are errors.
+    pub fn solve(self, asked: &Request, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
+        let asked = &Request { control: self.facts.on_whole(asked.control), ..*asked };
         let (mut found, facts) = match asked.goal {
             Some(goal) => (self.by_accuracy(goal, asked, observe)?, self.facts),
             None if self.is_nested(asked, start.is_some())? => {
@@ -61,7 +59,7 @@ impl<T: Scalar> Session<T> {
             }
         };
         found.after = found.after(&asked.after, &facts.scene.elastic)?;
-        Ok((found, facts))
+        facts.solved("solve", found)
     }
 
     fn by_accuracy(&self, goal: Goal, asked: &Request, observe: Observe<'_>) -> Result<Answer<T>> {

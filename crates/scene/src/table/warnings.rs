@@ -50,9 +50,7 @@ pub fn write_beside(table: &Path, warnings: &[Notice]) -> Outcome<()> {
         };
     }
     let lines: String = warnings.iter().map(Notice::line).collect();
-    let file = OutputFile::create(&path, true)?;
-    file.write(|path| write_text(path, &lines))?;
-    Ok(file.commit()?)
+    Ok(OutputFile::create(&path, true)?.complete(|path| write_text(path, &lines))?)
 }
 
 /// The warnings of a run so far, each told once; the worst of each code is kept.
