@@ -17,8 +17,7 @@ use crate::pictures::{FormatKeys, PaperOptions};
 use crate::printing::{Printing, aligned};
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE};
 use crate::report;
-use crate::results::{self, Contents, REPORT, Results, write_report};
-use crate::scene;
+use crate::results::{self, Contents, Results, write_report};
 use crate::solved::{CONTACT_PRESSURE, GAP, Solved, units_of};
 use crate::units::Units;
 
@@ -91,10 +90,7 @@ pub fn run(&Call { scene, .. }: &Call<'_>) -> Outcome<bool> {
                 chart.write(folder.path(&picture_format.file(name)))
             })
         })?;
-        let names = [REPORT, scene::NAME].map(str::to_owned).into_iter();
-        let names = names.chain(parts.iter().map(|(name, _)| format!("{name}.csv")));
-        let names = names.chain(parts.iter().map(|(name, _)| picture_format.file(name)));
-        Outcome::Ok(results.list(&names.collect::<Vec<_>>()))
+        Outcome::Ok(results.list())
     };
     let told = results.as_ref().map(write).transpose()?;
     printing.say(&aligned(&figures.rows(&units)));

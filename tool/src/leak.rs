@@ -19,8 +19,8 @@ use crate::pictures::{FormatKeys, PaperOptions};
 use crate::printing::{Printing, aligned, complain, in_options, name};
 use crate::quantity::LENGTH;
 use crate::report;
-use crate::results::{self, Contents, REPORT, Results, write_report};
-use crate::scene::{self, SceneFile};
+use crate::results::{self, Contents, Results, write_report};
+use crate::scene::SceneFile;
 use crate::session;
 use crate::solved::{GAP, Solved, units_of};
 use crate::units::Units;
@@ -137,7 +137,6 @@ fn write(
 ) -> Outcome<String> {
     let FormatKeys { picture_format } = results.scene.keys();
     let paper = results.scene.keys::<PaperOptions>().paper();
-    let mut names = [REPORT, scene::NAME].map(str::to_owned).to_vec();
     results.write(results.folder()?, |folder| {
         write_report(folder, report)?;
         for axis in Axis::BOTH.into_iter().filter(|axis| leak.percolation.along(*axis).is_some()) {
@@ -151,11 +150,10 @@ fn write(
             let passage = (found.map(Narrowest::record), found.map_or(&[][..], |found| &found.path));
             let picture = drawn(axis, (gap, &speed), passage, grid, units, paper)?;
             picture.write(folder.path(&picture_name))?;
-            names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);
         }
         Ok(())
     })?;
-    Ok(results.list(&names))
+    Ok(results.list())
 }
 
 /// The flow at the nodes, per width.

@@ -14,8 +14,7 @@ use crate::printing::{Printing, aligned, complain, in_options};
 use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
-use crate::results::{self, REPORT, Results, write_report};
-use crate::scene;
+use crate::results::{self, Results, write_report};
 use crate::session::{Strictness, say_new};
 use crate::solve::FIELDS;
 use crate::summary::warn;
@@ -109,8 +108,7 @@ fn find<T: Scalar>(
             write_report(folder, &report)?;
             FIELDS.into_iter().zip(fields).try_for_each(|(name, field)| write_npy(folder.path(name), field))
         })?;
-        let names = [REPORT, scene::NAME].into_iter().chain(FIELDS).map(str::to_owned);
-        printing.say(&results.list(&names.collect::<Vec<_>>()));
+        printing.say(&results.list());
     }
     printing.report(|| report);
     warn("", &last);

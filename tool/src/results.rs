@@ -85,9 +85,10 @@ impl Results<'_> {
         Ok(written)
     }
 
-    /// The names of the files that there are, for people.
-    pub fn list(&self, names: &[String]) -> String {
-        format!("results in {}: {}", name(self.out), names.join(", "))
+    /// The names of the files that were written, for people.
+    pub fn list(&self) -> String {
+        let written = self.files.iter().filter(|file| self.out.join(file).exists()).map(String::as_str);
+        format!("results in {}: {}", name(self.out), written.collect::<Vec<_>>().join(", "))
     }
 }
 

@@ -19,12 +19,11 @@ use self::others::{Named, OTHERS, other_fields};
 use crate::command::Call;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::pictures::{FormatKeys, MapColours};
+use crate::pictures::MapColours;
 use crate::printing::{Printing, complain};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
-use crate::results::{self, REPORT, Results};
-use crate::scene;
+use crate::results::{self, Results};
 use crate::session::{Strictness, say_new};
 use crate::summary::{table, warn};
 
@@ -173,18 +172,6 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// The files of these options.
-    fn names(&self) -> Vec<String> {
-        let (options, FormatKeys { picture_format }) = (self.options, self.problem.case.given().keys());
-        let arrays = FIELDS.into_iter().chain(options.other_files(&self.problem.case));
-        let arrays = arrays.filter(|_| options.writes(Format::Npy));
-        let archives =
-            [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
-        let fields = arrays.chain(archives.map(|(_, name)| name)).chain([REPORT, scene::NAME]);
-        let names = fields.chain(options.distribution.map(|_| DISTRIBUTION)).map(str::to_owned);
-        names.chain(PICTURES.into_iter().filter(|_| self.pictures).map(|name| picture_format.file(name))).collect()
-    }
-
     fn run<T: Scalar>(mut self, posed: Posed) -> Outcome<bool> {
         let (options, processes, mut grid) = (self.options, self.processes, *posed.surface.grid());
         let given = self.problem.case.given();
@@ -229,7 +216,7 @@ impl Job<'_> {
                 beyond = results.write(folder, write)?;
                 Ok(())
             })?;
-            told.push(results.list(&self.names()));
+            told.push(results.list());
             told.extend(beyond.map(|load| format!("beyond the colours of the pressure: {load}")));
         }
 

@@ -1,10 +1,9 @@
 //! The fields that a solve may leave besides gap and pressures: the softest mode, displacements, and the plastic depth.
 
 use asperity::{Result, Surface};
-use asperity_scene::{Answer, Case, Elastic, gap_to_write};
+use asperity_scene::{Answer, Elastic, gap_to_write};
 use ndarray::Array2;
 
-use super::Options;
 use crate::options::Scalar;
 
 /// The files.
@@ -12,16 +11,6 @@ pub const OTHERS: [&str; 4] = ["mode.npy", "displacement.npy", "against_displace
 
 /// A field on the whole of the map, by its file.
 pub type Named = (&'static str, Array2<f64>);
-
-impl Options {
-    /// The files of the fields that are asked for, or come with a hardness.
-    pub fn other_files(&self, case: &Case) -> impl Iterator<Item = &'static str> + use<> {
-        let (displacement, scene) = (self.fields.is_some(), case.scene());
-        let both = displacement && scene.elastic.against_modulus.is_some();
-        let asked = [case.given().is_tested(), displacement, both, scene.adhesion.yields()];
-        OTHERS.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
-    }
-}
 
 /// These fields of what was found, on its surface if displacements are asked for.
 pub fn other_fields<T: Scalar>(found: &Answer<T>, elastic: &Elastic, surface: Option<&Surface>) -> Result<Vec<Named>> {
