@@ -72,7 +72,7 @@ pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let options = &call.scene.keys::<Options>();
     let Options { out, fields, plot } = options;
     let table = TableOptions::new(call, out, format_of(out, "")?, fields.as_deref())?;
-    call.processes.first(|| check_plot(plot.as_deref(), out, table.manner.force))?;
+    call.processes.first(|| check_plot(plot.as_deref(), out, table.force))?;
     table.fill(options)
 }
 
@@ -88,7 +88,7 @@ impl Fill for Options {
         table: &TableOptions<'_>,
         is_started: bool,
     ) -> Outcome<()> {
-        let (printing, tolerance) = (table.manner.printing, session.facts.scene.tolerance());
+        let (printing, tolerance) = (table.printing, session.facts.scene.tolerance());
         let Some(goal) = in_options(table.scene.given.cycle_goal())? else {
             if !is_started && session.may_choose_grid() {
                 printing.say("--accuracy 0.1 would take the coarsest grid on which the work is known to 10 %");
@@ -107,11 +107,7 @@ impl Fill for Options {
         table.announce();
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
-            table.options.manner.printing.say(&format!(
-                "{:>4}  {}{event}",
-                table.rows.count(),
-                table.brief(&row.account)
-            ));
+            table.options.printing.say(&format!("{:>4}  {}{event}", table.rows.count(), table.brief(&row.account)));
         }
         let limit = table.limit()?;
         let shortfall = limit.as_ref().and_then(|limit| limit.shortfall(Skin::Options));
@@ -128,8 +124,8 @@ impl Options {
         let (x, y) = if free { (APPROACH, NORMAL_FORCE) } else { (MEAN_GAP, MEAN_PRESSURE) };
         let limit = limits.as_ref().map(|limits| limits.limit);
         let followed = Followed { rows, units, free, axes: [x, y], limit, limits };
-        table.options.manner.printing.report(|| table.report(followed.report()));
-        if table.options.manner.printing.for_people() {
+        table.options.printing.report(|| table.report(followed.report()));
+        if table.options.printing.for_people() {
             say(&format!("{} rows in {}", table.rows.count(), printing::name(&self.out)));
             followed.lines().iter().for_each(|line| say(line));
         }

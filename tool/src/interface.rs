@@ -60,7 +60,7 @@ pub fn run(call: &Call<'_>) -> Outcome<bool> {
     }
     for (_, path) in options.files() {
         check_apart(&path, problem.files().chain([out.as_path()]))?;
-        check_free(&path, table.manner.force || out.exists(), "--out")?;
+        check_free(&path, table.force || out.exists(), "--out")?;
     }
     table.fill(options)
 }
@@ -104,7 +104,7 @@ impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let (rows, of_rows) = (table.rows.count(), table.rows.of_rows());
         // while the table changes, files of its former rows are wrong
-        if table.options.manner.force || rows > 0 && of_rows != Some(rows) {
+        if table.options.force || rows > 0 && of_rows != Some(rows) {
             table.first(|| self.clear())?;
         }
         let rows = table.solve()?;
@@ -115,9 +115,9 @@ impl Fill for Options {
         table.first(|| {
             let written = if converged { self.write(&rows, table)? } else { Vec::new() };
             if !written.is_empty() {
-                table.options.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
+                table.options.printing.say(&format!("for finite elements: {}", written.join(", ")));
             }
-            table.options.manner.printing.report(|| table.report(json!({ "last": rows.last(), "files": written })));
+            table.options.printing.report(|| table.report(json!({ "last": rows.last(), "files": written })));
             Ok(())
         })?;
         Ok(converged)

@@ -59,7 +59,7 @@ pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let Options { out, format, fields, .. } = options;
     let format = format.map_or_else(|| format_of(out, ", or give --format"), Ok)?;
     let table = TableOptions::new(call, out, format, fields.as_deref())?;
-    call.processes.first(|| PlotOptions::new(call.scene).check(out, table.manner.force))?;
+    call.processes.first(|| PlotOptions::new(call.scene).check(out, table.force))?;
     table.fill(options)
 }
 
@@ -73,7 +73,7 @@ impl Fill for Options {
         table.first(|| {
             PlotOptions::new(table.options.scene).draw(&rows, &table.rows.facts().units, table.theories.as_ref())
         })?;
-        table.options.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
+        table.options.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {
             true => "or leave out jumps",
             false => "or --tolerance",

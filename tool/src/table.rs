@@ -36,14 +36,6 @@ keys! {
     }
 }
 
-/// The replacements, refusals and prints of a run that fills a table.
-#[derive(Clone, Copy)]
-pub struct Manner {
-    pub force: bool,
-    pub strictness: Strictness,
-    pub printing: Printing,
-}
-
 /// The options of a table.
 pub struct TableOptions<'a> {
     pub problem: ProblemOptions,
@@ -53,7 +45,9 @@ pub struct TableOptions<'a> {
     pub fields: Option<&'a Path>,
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
-    pub manner: Manner,
+    /// Whether files that are there are replaced
+    pub force: bool,
+    pub printing: Printing,
     /// Whether the table belongs to an interface
     pub interface: bool,
 }
@@ -63,8 +57,8 @@ impl<'a> TableOptions<'a> {
     pub fn new(call: &Call<'a>, out: &'a Path, format: Format, fields: Option<&'a Path>) -> Outcome<Self> {
         let &Call { scene, processes } = call;
         let (problem, ForceKeys { force }) = (ProblemOptions::new(&scene.given)?, scene.keys());
-        let manner = Manner { force, strictness: scene.keys(), printing: scene.keys() };
-        Ok(Self { problem, out, format, fields, scene, processes, manner, interface: false })
+        let printing = scene.keys();
+        Ok(Self { problem, out, format, fields, scene, processes, force, printing, interface: false })
     }
 }
 
@@ -127,15 +121,14 @@ impl<'a> TableOptions<'a> {
 
     /// Opens the table, writes the scene of the run next to it, and says the warnings so far.
     fn open<T: Scalar>(self, given: Problem, loads: &[Load], after: After, by: &impl Fill) -> Outcome<Table<'a, T>> {
-        let Self { ref problem, out, scene, processes, manner, .. } = self;
-        let Manner { force, strictness, printing } = manner;
+        let Self { ref problem, out, scene, processes, force, printing, .. } = self;
         let (Problem { posed, table: law_table, works }, of_case) = (given, problem.case.scene());
         let grid = *posed.surface.grid();
         let theories = by.theories(&posed.surface, of_case)?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
-        let mut session = strictness.session::<T>(posed, processes)?;
+        let mut session = scene.keys::<Strictness>().session::<T>(posed, processes)?;
         let way = by.way(loads, session.full_pressure(loads)?, &scene.given)?;
         let control = way.control(of_case);
         // the softest mode of a path is on the grid of the surface
@@ -173,8 +166,8 @@ impl<'a> TableOptions<'a> {
 impl<T: Scalar> Table<'_, T> {
     /// Sets what an interruption says of the rows.
     fn stands(&self) {
-        let TableOptions { out, manner, .. } = &self.options;
-        let command = if manner.force { "the same command without --force" } else { "the same command" };
+        let TableOptions { out, force, .. } = &self.options;
+        let command = if *force { "the same command without --force" } else { "the same command" };
         let (rows, of, out) = (self.rows.count(), of_rows(&self.rows, " of "), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} continues from there"));
     }
@@ -197,19 +190,19 @@ impl<T: Scalar> Table<'_, T> {
     /// Says what is asked of a cycle and what that is likely to take, before its first row.
     pub fn announce(&self) {
         let asked = self.rows.pace().and_then(|pace| pace.forecast());
-        asked.iter().for_each(|asked| self.options.manner.printing.say(asked));
+        asked.iter().for_each(|asked| self.options.printing.say(asked));
     }
 
     /// Solves the next row, while a bar has its number, and appends it. Refuses a solution that ran away, and says its
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
-        let TableOptions { problem, manner, .. } = &self.options;
+        let TableOptions { problem, printing, .. } = &self.options;
         if self.rows.of_rows() == Some(self.rows.count()) {
             return Ok(None);
         }
         let name = format!("{}{}", self.rows.count() + 1, of_rows(&self.rows, "/"));
         let tolerance = problem.case.scene().tolerance();
-        let mut progress = Progress::new(&name, tolerance, self.nodes, manner.printing.without_bars());
+        let mut progress = Progress::new(&name, tolerance, self.nodes, printing.without_bars());
         progress.follow(self.rows.pace().copied());
         let found = self.rows.next(&mut |state| {
             progress.update(state);
@@ -225,13 +218,13 @@ impl<T: Scalar> Table<'_, T> {
     /// The limits of no range of a complete cycle, where the same cycle on a coarser grid tells them, which a bar follows if
     /// it is ahead.
     pub fn limit(&mut self) -> Outcome<Option<CycleLimits>> {
-        let TableOptions { problem, manner, .. } = &self.options;
+        let TableOptions { problem, printing, .. } = &self.options;
         let ahead = self.rows.coarser_shape();
         if let Some((nx, ny)) = ahead {
-            manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
+            printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
         }
         let (tolerance, nodes) = (problem.case.scene().tolerance(), ahead.map_or(0, |(nx, ny)| nx * ny));
-        let is_quiet = manner.printing.without_bars() || ahead.is_none();
+        let is_quiet = printing.without_bars() || ahead.is_none();
         let mut progress = Progress::new("coarser", tolerance, nodes, is_quiet);
         self.rows.cycle_limit(&mut |state| {
             progress.update(state);
@@ -241,7 +234,7 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Solves all rows that are left, says each in a line, and returns the rows of the file.
     pub fn solve(&mut self) -> Outcome<Vec<Value>> {
-        let (out, printing) = (self.options.out, self.options.manner.printing);
+        let (out, printing) = (self.options.out, self.options.printing);
         let count = self.rows.of_rows().unwrap_or_default();
         let width = count.to_string().len();
         while let Some(row) = self.extend()? {
