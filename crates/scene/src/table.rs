@@ -11,6 +11,7 @@ pub mod warnings;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::str::Lines;
 
 use asperity::{Error, Solution};
 use serde_json::{Map, Value};
@@ -89,6 +90,20 @@ impl Format {
             Self::Csv => csv::line(row),
             Self::Jsonl => serde_json::to_string(row).unwrap_or_default(),
         }
+    }
+
+    /// The names of the columns of a table, and the lines of its rows.
+    pub fn parts(self, text: &str) -> (Vec<String>, Lines<'_>) {
+        let mut lines = text.lines();
+        let names = match self {
+            Self::Csv => csv::names(lines.next().unwrap_or_default()),
+            Self::Jsonl => {
+                let first: Map<_, _> =
+                    lines.clone().next().and_then(|line| serde_json::from_str(line).ok()).unwrap_or_default();
+                first.into_iter().map(|(name, _)| name).collect()
+            }
+        };
+        (names, lines)
     }
 
     /// The row of a line with columns of these names.

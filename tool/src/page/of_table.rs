@@ -9,7 +9,7 @@ use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::escaped;
 use asperity_scene::legs::{CASE, abscissa, value, varied};
-use asperity_scene::{Account, Load, Step, dimension_of_key, key};
+use asperity_scene::{Account, Format, Load, Step, dimension_of_key, key};
 use serde_json::Value;
 use toml::Table;
 
@@ -240,17 +240,10 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
 /// The header, the names of the columns, and the rows of a table, of comma-separated values or of a JSON object on each
 /// line.
 fn rows(text: &str) -> (Vec<String>, Vec<String>, Vec<Value>) {
-    if text.starts_with('{') {
-        let rows: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        let columns = rows.first().and_then(Value::as_object).map(|row| row.keys().cloned().collect());
-        let columns: Vec<_> = columns.unwrap_or_default();
-        return (columns.clone(), columns, rows);
-    }
-    let mut lines = text.lines();
-    let header = csv::names(lines.next().unwrap_or_default());
-    let name = |column: &String| column.split(" [").next().unwrap_or_default().to_owned();
-    let columns: Vec<_> = header.iter().map(name).collect();
-    let rows = lines.map(|line| csv::parsed(&columns, line)).collect();
+    let format = if text.starts_with('{') { Format::Jsonl } else { Format::Csv };
+    let (header, lines) = format.parts(text);
+    let columns: Vec<_> = header.iter().map(|column| csv::bare(column).to_owned()).collect();
+    let rows = lines.map(|line| format.parsed(&columns, line)).filter(Value::is_object).collect();
     (header, columns, rows)
 }
 

@@ -2,15 +2,14 @@
 
 use std::fs::{self, File};
 use std::path::Path;
-use std::str::Lines;
 
 use asperity::Error;
+use asperity_scene::Notice;
 use asperity_scene::legs::CASE;
-use asperity_scene::{Format, Notice};
 use serde_json::{Map, Number, Value};
 
 use super::cases::{Case, Study, text};
-use crate::csv;
+use crate::csv::bare;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
 use crate::warnings::{read_beside, write_beside};
@@ -21,7 +20,7 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
     let (format, columns) = (study.format, columns(study)?);
     for (k, Case { rows, values, .. }) in study.cases.iter().enumerate() {
         let text = read(rows)?;
-        let (names, lines) = parts(format, &text)?;
+        let (names, lines) = format.parts(&text);
         // what varies, but for what is a column of the rows
         let is_column = |name: &String| columns.iter().any(|column| bare(column) == name);
         let own = study.columns.iter().zip(values).filter(|(name, _)| !is_column(name));
@@ -57,7 +56,7 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
 fn columns(study: &Study) -> Outcome<Vec<String>> {
     let mut columns: Vec<String> = Vec::new();
     for Case { rows, .. } in &study.cases {
-        for name in parts(study.format, &read(rows)?)?.0 {
+        for name in study.format.parts(&read(rows)?).0 {
             match columns.iter().find(|column| bare(column) == bare(&name)) {
                 Some(column) if *column != name => {
                     let reason =
@@ -74,24 +73,6 @@ fn columns(study: &Study) -> Outcome<Vec<String>> {
 
 fn read(rows: &Path) -> Outcome<String> {
     Ok(fs::read_to_string(rows).map_err(|e| Error::unreadable(rows, e))?)
-}
-
-/// The names of the columns of rows, and the lines of the rows.
-fn parts(format: Format, text: &str) -> Outcome<(Vec<String>, Lines<'_>)> {
-    let mut lines = text.lines();
-    let names = match format {
-        Format::Csv => csv::names(lines.next().unwrap_or_default()),
-        Format::Jsonl => {
-            let first: Map<_, _> = serde_json::from_str(lines.clone().next().unwrap_or("{}"))?;
-            first.into_iter().map(|(name, _)| name).collect()
-        }
-    };
-    Ok((names, lines))
-}
-
-/// The name of a column without its unit.
-fn bare(column: &str) -> &str {
-    column.split(" [").next().unwrap_or_default()
 }
 
 /// The warnings of all cases: of each code the worst, with the numbers of its cases if these are not all, and of the

@@ -45,6 +45,11 @@ fn word(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\"").replace(char::is_control, " "))
 }
 
+/// The name of a column without its unit.
+pub fn bare(column: &str) -> &str {
+    column.split(" [").next().unwrap_or_default()
+}
+
 /// The names of columns that [`header()`] made a line of.
 pub fn names(line: &str) -> Vec<String> {
     cells(line).into_iter().map(|(name, _)| name).collect()
