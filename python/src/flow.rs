@@ -2,7 +2,7 @@
 
 use asperity::Grid;
 use asperity_flow::{Axis, Conductance, Gap, Leakage, Percolation};
-use asperity_scene::{Boundary, LeakAsked, Skin};
+use asperity_scene::{Boundary, Choice, LeakAsked, Skin};
 use numpy::ndarray::{Array2, ArrayView2};
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -59,11 +59,8 @@ pub fn leakage<'py>(
     tolerance: f64,
     max_iterations: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let boundary = match boundary {
-        "periodic" => Boundary::Periodic,
-        "free" => Boundary::Free,
-        other => return Err(PyValueError::new_err(format!("boundary is {other:?}: it must be 'periodic' or 'free'"))),
-    };
+    let unknown = || PyValueError::new_err(format!("boundary is {boundary:?}: it must be 'periodic' or 'free'"));
+    let boundary = Boundary::named(boundary).ok_or_else(unknown)?;
     if let Some(given) = viscosity.filter(|viscosity| !(*viscosity > 0.0 && viscosity.is_finite())) {
         return Err(PyValueError::new_err(format!("viscosity is {given}: it must be positive and finite")));
     }

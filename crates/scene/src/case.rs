@@ -81,11 +81,6 @@ impl Case {
         Ok(Self { given: Entries::all(std::iter::once(&self.given).chain(parts)), quantities, ..self.clone() })
     }
 
-    /// The case as a part of a command with these quantities, which all have units or none has.
-    pub fn among(&self, quantities: Quantities) -> Self {
-        Self { quantities, ..self.clone() }
-    }
-
     /// What was given.
     pub fn given(&self) -> &Entries {
         &self.given
@@ -99,11 +94,6 @@ impl Case {
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
-    }
-
-    /// The words of its messages.
-    pub fn skin(&self) -> Skin {
-        self.skin
     }
 
     /// A result with a reason that has keys in braces.

@@ -19,7 +19,7 @@ keys! {
             accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"])
                 .excludes(&["initial_gap", "nested", "no_nested", "stability", "leave"]),
             /// Quantity that has the accuracy [default: area]
-            accuracy_of: Option<String> = Kind::word(quantities, &["QUANTITY"]).needs(&["accuracy"]),
+            accuracy_of: Option<String> = Kind::word(|| words(&Quantity::ALL), &["QUANTITY"]).needs(&["accuracy"]),
             /// Memory for {accuracy}, in GiB [default: all that is free]
             memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
@@ -54,21 +54,11 @@ keys! {
             /// finer and finer grids until the expected error is small enough
             accuracy: Option<f64> = Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
             /// Quantity that has the accuracy [default: work]
-            accuracy_of: Option<String> = Kind::word(of_cycles, &["QUANTITY"]).needs(&["accuracy"]),
+            accuracy_of: Option<String> = Kind::word(|| words(&Quantity::OF_LOOPS), &["QUANTITY"]).needs(&["accuracy"]),
             /// Memory for {accuracy}, in GiB [default: all that is free]
             memory: Option<f64> = Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
         }
     }
-}
-
-/// The names of the quantities of a solution that may have an accuracy.
-fn quantities() -> Vec<Word> {
-    words(&Quantity::ALL)
-}
-
-/// The names of the quantities of a cycle that may have an accuracy.
-fn of_cycles() -> Vec<Word> {
-    words(&Quantity::OF_LOOPS)
 }
 
 fn words(quantities: &[Quantity]) -> Vec<Word> {
