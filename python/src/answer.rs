@@ -4,8 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity::Solution;
 use asperity_maps::Topography;
-use asperity_scene::outcome::Outcome;
-use asperity_scene::{self as scene, Account, Answer, Sight, Skin, rows, shortfalls};
+use asperity_scene::{self as scene, Account, Answer, Outcome, Sight, Skin, rows, shortfalls};
 use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::IntoPyObjectExt;

@@ -2,8 +2,7 @@
 
 use asperity_maps::Topography;
 use asperity_scene::allowed::Range;
-use asperity_scene::quantity::Quantity;
-use asperity_scene::{Quantities, QuantityEntry, Skin, dimension_of_key, numbers};
+use asperity_scene::{Quantities, Quantity, QuantityEntry, Skin, dimension_of_key, numbers};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

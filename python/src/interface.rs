@@ -1,7 +1,7 @@
 //! The law of an interface for codes of finite elements.
 
+use asperity_scene::Units;
 use asperity_scene::interface::Code;
-use asperity_scene::units::Units;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::Value;

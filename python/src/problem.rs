@@ -3,13 +3,11 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity_maps::Topography;
-use asperity_scene::processes::Processes;
-use asperity_scene::quantity::LENGTH;
 use asperity_scene::theories::Theories;
 use asperity_scene::{
     AccuracyKeys, AnyRows, AnySession, Boundary, Case, ConductorKeys, CycleAccuracyKeys, Entries, FindingsKeys,
-    FractionsKeys, Keys, LeakageKeys, Load, LoadKeys, LoadsKeys, Maps, NestedKeys, Objects, PathKeys, PullOffKeys,
-    Skin, StiffnessKeys, Way, either, worded,
+    FractionsKeys, Keys, LENGTH, LeakageKeys, Load, LoadKeys, LoadsKeys, Maps, NestedKeys, Objects, PathKeys,
+    Processes, PullOffKeys, Skin, StiffnessKeys, Way, either, worded,
 };
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;

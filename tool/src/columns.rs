@@ -2,11 +2,8 @@
 
 use asperity_scene::column::{MEAN_PRESSURE, NORMAL_FORCE};
 use asperity_scene::legs::value;
-use asperity_scene::{Account, Adhesion, Measure, key};
+use asperity_scene::{Account, Adhesion, ENERGY, ENERGY_PER_AREA, Measure, Units, key};
 use serde_json::Value;
-
-use crate::quantity::{ENERGY, ENERGY_PER_AREA};
-use crate::units::Units;
 
 /// The columns of the rows of a table, with their units. Energies of a body with a free boundary are in full, as a window
 /// around a tip is no area of its energy; others are over the area.

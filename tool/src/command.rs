@@ -1,12 +1,10 @@
 //! A command of the program: its name, its help, the lists of its options, and its work.
 
-use asperity_scene::{Entries, Key};
+use asperity_scene::{Entries, Key, Outcome, Processes};
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgGroup};
 
 use crate::options::ProblemOptions;
-use crate::outcome::Outcome;
-use crate::processes::Processes;
 use crate::results::OF_FOLDER;
 use crate::scene::SceneFile;
 

@@ -3,13 +3,12 @@
 use std::io::{self, Write};
 
 use asperity_maps::{RowAlignment, Trend};
-use asperity_scene::{Kind, Word, keys};
+use asperity_scene::{Kind, Outcome, Word, keys};
 use clap::Arg;
 use clap::builder::PossibleValuesParser;
 use clap_complete::{Shell, generate};
 
 use crate::command::Call;
-use crate::outcome::Outcome;
 use crate::parser;
 use crate::printing::printed;
 

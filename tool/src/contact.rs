@@ -6,20 +6,18 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Grid};
 use asperity_plot::{Chart, Paper, Picture};
 use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
-use asperity_scene::{Account, Inputs, Kind, key, keys};
+use asperity_scene::output::write_text;
+use asperity_scene::{
+    Account, Dimension, Inputs, Kind, LENGTH, Outcome, PER_LENGTH, PER_PRESSURE, PRESSURE, Units, csv, key, keys,
+};
 use serde_json::{Value, json};
 
 use crate::command::Call;
-use crate::csv;
-use crate::outcome::Outcome;
-use crate::output::write_text;
 use crate::pictures::{FormatKeys, PaperOptions};
 use crate::printing::{Printing, aligned};
-use crate::quantity::{Dimension, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE};
 use crate::report;
 use crate::results::{self, Contents, Results, write_report};
 use crate::solved::{CONTACT_PRESSURE, GAP, Solved, units_of};
-use crate::units::Units;
 
 keys! {
     /// Tabulate and chart the contact of a solve.

@@ -5,21 +5,18 @@ use std::path::PathBuf;
 
 use asperity_scene::legs::value;
 use asperity_scene::{
-    Account, CycleLimit, CycleLimits, Entries, Kind, Load, Session, Skin, Step, Way, key, keys, unbalanced,
+    Account, CycleLimit, CycleLimits, Entries, FORCE, Kind, Load, Outcome, PRESSURE, Scalar, Session, Skin, Step,
+    Units, Way, key, keys, unbalanced,
 };
 use serde_json::{Map, Value, json};
 
 use crate::columns::Columns;
 use crate::command::Call;
-use crate::options::Scalar;
-use crate::outcome::Outcome;
 use crate::pictures::{PaperOptions, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, in_options, say, warn};
 use crate::progress::Progress;
-use crate::quantity::{FORCE, PRESSURE};
 use crate::report::LAST;
 use crate::table::{Fill, Table, TableOptions, format_of};
-use crate::units::Units;
 
 keys! {
     /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.

@@ -7,24 +7,21 @@ use asperity::{Amplitude, Grid, SelfAffine, Status};
 use asperity_maps::Topography;
 use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map};
-use asperity_scene::{Kind, Map as HeightMap, Maps, Solved, keys};
+use asperity_scene::{Kind, Map as HeightMap, Maps, Outcome, Processes, Solved, Units, keys};
 use serde_json::json;
 
 use crate::called;
 use crate::command::Call;
 use crate::heights::named;
 use crate::options::ProblemOptions;
-use crate::outcome::Outcome;
 use crate::pictures::{self, FormatKeys, PaperOptions};
 use crate::printing::{Printing, name, on_terminal};
-use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::results::Results;
 use crate::scene::{self, SceneFile};
 use crate::session::Strictness;
 use crate::summary::{table, warn};
 use crate::threads::{count, use_threads};
-use crate::units::Units;
 
 keys! {
     /// Press a built-in rough surface, without and with adhesion at the same load.

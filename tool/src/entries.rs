@@ -6,6 +6,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use asperity_scene::synonyms::similar;
 use asperity_scene::{Entries, Key, Skin, Values};
 use clap::Arg;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -15,7 +16,6 @@ use toml::{Spanned, Table, Value};
 use crate::command::{Command, mistake};
 use crate::hints::{hinted, meant_by};
 use crate::printing::on_one_line;
-use crate::synonyms::similar;
 
 /// Reads a file of options.
 pub fn document(path: &Path) -> asperity::Result<Table> {

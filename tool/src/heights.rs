@@ -7,11 +7,8 @@ use asperity::Grid;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_rows, read_topography};
 use asperity_maps::warning::{Warning, WarningCode};
-use asperity_scene::{Entries, Map, Skin, complete, in_unit, sided, worded};
+use asperity_scene::{Entries, Map, Outcome, Processes, Skin, complete, in_unit, sided, worded};
 use ndarray::Array2;
-
-use crate::outcome::Outcome;
-use crate::processes::Processes;
 
 /// The name of a file in messages and reports.
 pub fn named(path: &Path) -> Option<String> {

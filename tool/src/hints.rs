@@ -2,12 +2,12 @@
 
 use std::ffi::OsString;
 
+use asperity_scene::synonyms::{is_same, meant};
 use asperity_scene::{Key, Values};
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgAction, Command};
 
 use crate::named;
-use crate::synonyms::{is_same, meant};
 
 /// A mistake in the arguments of a `tool`, with what may have been meant.
 pub fn hinted(tool: &Command, arguments: &[OsString], mut error: Error) -> Error {

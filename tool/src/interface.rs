@@ -5,13 +5,11 @@ use std::path::PathBuf;
 
 use asperity::Error;
 use asperity_scene::interface::Code;
-use asperity_scene::{Boundary, Facts, Format, Kind, keys};
+use asperity_scene::output::{OutputFile, check_apart, check_free, write_text};
+use asperity_scene::{Boundary, Facts, Format, Kind, Outcome, Scalar, keys};
 use serde_json::{Value, json};
 
 use crate::command::Call;
-use crate::options::Scalar;
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_apart, check_free, write_text};
 use crate::printing::{complain, in_options};
 use crate::table::{Fill, Table, TableOptions};
 

@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{Kind, LAWS, Law, Scalar, Skin, Word, keys, read_law};
+use asperity_scene::output::{OutputFile, check_apart};
+use asperity_scene::{Kind, LAWS, Law, Outcome, Scalar, Skin, Word, keys, read_law};
 
 use crate::command::Call;
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_apart};
 use crate::pictures::PaperOptions;
 use crate::printing::{bold, in_options, say};
 

@@ -8,22 +8,19 @@ use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, write_npy};
 use asperity_plot::{Colouring, Map, Paper, Picture};
-use asperity_scene::{Boundary, Inputs, Kind, Leaked, Narrowest, Skin, key, keys};
+use asperity_scene::{Boundary, Inputs, Kind, LENGTH, Leaked, Narrowest, Outcome, Skin, Units, key, keys};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::command::Call;
 use crate::heights::{self, check_room, converted, unread};
-use crate::outcome::Outcome;
 use crate::pictures::{FormatKeys, PaperOptions};
 use crate::printing::{Printing, aligned, complain, in_options, name};
-use crate::quantity::LENGTH;
 use crate::report;
 use crate::results::{self, Contents, Results, write_report};
 use crate::scene::SceneFile;
 use crate::session;
 use crate::solved::{GAP, Solved, units_of};
-use crate::units::Units;
 
 keys! {
     /// Find out whether a gap is open from side to side, and how much leaks through it.

@@ -57,9 +57,8 @@ use std::path::Path;
 use asperity_scene::{
     AccuracyKeys, AdhesionKeys, ConductorKeys, CutOffKeys, CycleAccuracyKeys, FindingsKeys, FormKeys, FourierKeys,
     FractionsKeys, GridKeys, Keys, LeakKeys, LeakageKeys, LengthsKeys, Load, LoadKeys, LoadsKeys, NestedKeys,
-    NewLengthsKeys, PathKeys, PercolationKeys, PullOffKeys, RoughnessKeys, Skin, SolverKeys, StepKeys, StiffnessKeys,
-    SurfaceKeys, UnitKeys, allowed, chosen, csv, journal, keys, list as loads, numbers, outcome, output, processes,
-    quantity, synonyms, units, warnings,
+    NewLengthsKeys, Outcome, PathKeys, PercolationKeys, Processes, PullOffKeys, RoughnessKeys, Skin, SolverKeys,
+    StepKeys, StiffnessKeys, SurfaceKeys, UnitKeys, chosen, is_elsewhere, keys,
 };
 use clap::ArgMatches;
 use clap::error::ErrorKind;
@@ -68,10 +67,8 @@ use serde_json::Value;
 use crate::command::{Call, Command, Place, help};
 use crate::hints::hinted;
 use crate::options::ProblemOptions;
-use crate::outcome::Outcome;
 use crate::pictures::{FormatKeys, MapColours, PaperOptions, PlotKeys};
 use crate::printing::{Printing, check_printed, complain, on_one_line, printed};
-use crate::processes::{Processes, is_elsewhere};
 use crate::scene::SceneFile;
 use crate::session::Strictness;
 use crate::table::ForceKeys;

@@ -4,13 +4,12 @@ use std::path::Path;
 
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, read_topography};
-pub use asperity_scene::Scalar;
-use asperity_scene::{After, Case, Entries, Files, Map, Maps, Objects, Posed, Session, Skin, read_law};
+use asperity_scene::{
+    After, Case, Entries, Files, Map, Maps, Objects, Outcome, Posed, Processes, Scalar, Session, Skin, read_law,
+};
 use ndarray::Array2;
 
 use crate::heights::{named, rows_of, shared};
-use crate::outcome::Outcome;
-use crate::processes::Processes;
 use crate::threads;
 
 /// The case that options choose, and its files.

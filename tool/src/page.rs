@@ -6,23 +6,21 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::{LOOK, QUANTITY, ZOOM, escaped};
-use asperity_scene::{Kind, keys};
+use asperity_scene::journal::state_path;
+use asperity_scene::output::{OutputFile, check_apart, with_suffix, write_text};
+use asperity_scene::{Kind, Outcome, keys, warnings};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::citation::{PAPER, PROGRAM};
 use crate::columns::spaced;
 use crate::command::Call;
-use crate::journal::state_path;
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_apart, with_suffix, write_text};
 use crate::pictures::MapColours;
 use crate::printing::{name, say};
 use crate::results::PAGE;
 use crate::scene;
 use crate::solve;
 use crate::solved::units_of;
-use crate::warnings;
 
 mod figures;
 mod maps;

@@ -7,21 +7,17 @@ use std::path::{Path, PathBuf};
 use asperity::contact::Clusters;
 use asperity::{Grid, Real, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Paper, Picture, Style};
+use asperity_scene::allowed::Range;
 use asperity_scene::legs::{Leg, abscissa, legs, logarithmic, value};
+use asperity_scene::numbers::{percent, plain};
+use asperity_scene::output::{OutputFile, check_free};
 use asperity_scene::theories::{Curve, Theories};
-use asperity_scene::{Account, Kind, choice, key, keys};
+use asperity_scene::{Account, Kind, LENGTH, Outcome, PRESSURE, Quantity, Scalar, Units, choice, key, keys};
 use ndarray::{Array2, ArrayView2};
 use serde_json::Value;
 
-use crate::allowed::Range;
 use crate::columns::Columns;
-use crate::numbers::{percent, plain};
-use crate::options::Scalar;
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_free};
-use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::scene::SceneFile;
-use crate::units::Units;
 
 choice! {
     /// The format of pictures with names that the tool chooses.

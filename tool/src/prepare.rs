@@ -5,17 +5,15 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_maps::Topography;
 use asperity_maps::io::{Reading, write_topography};
-use asperity_scene::{Kind, Log, keys};
+use asperity_scene::output::OutputFile;
+use asperity_scene::{Kind, Log, Outcome, Units, keys};
 use serde_json::json;
 
 use crate::command::Call;
 use crate::heights::{check_room, unread};
-use crate::outcome::Outcome;
-use crate::output::OutputFile;
 use crate::printing::{Printing, aligned, in_options, name, say};
 use crate::scene::SceneFile;
 use crate::session;
-use crate::units::Units;
 
 keys! {
     /// Make a measured map into a surface that can be solved.

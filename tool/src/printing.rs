@@ -6,10 +6,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::AutoStream;
-use asperity_scene::{Kind, Skin, keys, worded};
+use asperity_scene::{Kind, Outcome, Skin, keys, worded};
 use serde_json::Value;
-
-use crate::outcome::Outcome;
 
 keys! {
     /// The form of standard output: a table, JSON or nothing.

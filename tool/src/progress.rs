@@ -7,11 +7,10 @@ use asperity::Grid;
 use asperity::solver::Iteration;
 use asperity_scene::fall::Fall;
 use asperity_scene::pace::Pace;
+use asperity_scene::{PRESSURE, Units};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::printing::{Printing, complain};
-use crate::quantity::PRESSURE;
-use crate::units::Units;
 
 /// The steps from the first error to the tolerance, on a logarithmic scale.
 const STEPS: f64 = 1000.0;

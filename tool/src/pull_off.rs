@@ -4,14 +4,12 @@ use std::path::PathBuf;
 
 use asperity::Status;
 use asperity_maps::io::write_npy;
-use asperity_scene::{Entries, Kind, Posed, Precision, Skin, Solved, gap_to_write, keys};
+use asperity_scene::{Entries, Kind, Outcome, Posed, Precision, Processes, Scalar, Skin, Solved, gap_to_write, keys};
 use serde_json::json;
 
 use crate::command::Call;
-use crate::options::{ProblemOptions, Scalar};
-use crate::outcome::Outcome;
+use crate::options::ProblemOptions;
 use crate::printing::{Printing, aligned, complain, in_options};
-use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
 use crate::results::{self, Results, write_report};

@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use asperity_maps::io::OutputFolder;
 use asperity_plot::Picture;
-use asperity_scene::{Account, key};
+use asperity_scene::output::{at_destination, check_apart, commit, output_folder, write_text};
+use asperity_scene::{Account, Outcome, key};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
 use crate::pictures::PictureFormat;
 use crate::printing::name;
 use crate::scene::{self, SceneFile};

@@ -5,13 +5,12 @@ use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity_maps::io::read_topography;
-use asperity_scene::{AdhesionKeys, Entries, Keys, Kind, chosen, keys};
+use asperity_scene::{AdhesionKeys, Entries, Keys, Kind, Outcome, chosen, keys};
 use clap::{Arg, ArgMatches, value_parser};
 use toml::Value;
 
 use crate::command::{Call, Command, Place};
 use crate::entries::{Reader, document, entries};
-use crate::outcome::Outcome;
 use crate::scene::SceneFile;
 use crate::{named, part_of};
 use crate::{parsed, study};

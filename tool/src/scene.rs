@@ -6,11 +6,9 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use asperity::Error;
-use asperity_scene::{Entries, Key, Keys, Values};
+use asperity_scene::output::{OutputFile, absolute, check_free, resolved, with_suffix, write_text};
+use asperity_scene::{Entries, Key, Keys, Outcome, Values};
 use toml::Value;
-
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, absolute, check_free, resolved, with_suffix, write_text};
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
 #[derive(Clone)]

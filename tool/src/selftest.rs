@@ -10,14 +10,13 @@ use asperity::{
     Amplitude, Control, Exponential, Grid, MaugisDugdale, NoAdhesion, Problem, Report, SelfAffine, Settings, Solution,
     Solver, Status, Surface, Westergaard,
 };
-use asperity_scene::{Scalar, keys};
+use asperity_scene::numbers::plain;
+use asperity_scene::{Outcome, Scalar, keys};
 use ndarray::Array2;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::command::Call;
-use crate::numbers::plain;
-use crate::outcome::Outcome;
 use crate::printing::{Printing, bold, complain, green, yellow};
 use crate::threads;
 

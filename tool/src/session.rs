@@ -2,13 +2,10 @@
 
 use std::io::{self, IsTerminal};
 
-use asperity_scene::{Kind, Notice, Posed, Session, keys};
+use asperity_scene::warnings::Warnings;
+use asperity_scene::{Kind, Notice, Outcome, Posed, Processes, Scalar, Session, keys};
 
-use crate::options::Scalar;
-use crate::outcome::Outcome;
 use crate::printing::complain;
-use crate::processes::Processes;
-use crate::warnings::Warnings;
 
 /// The code of the warning that rows have not converged, which precedes its message.
 pub const UNCONVERGED: &str = "unconverged";

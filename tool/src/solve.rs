@@ -9,19 +9,17 @@ use std::sync::Arc;
 use asperity::{Solution, Status};
 use asperity_maps::io::OutputFolder;
 use asperity_scene::{
-    Account, Boundary, Kind, Part, Posed, Precision, Request, Session, Solved, Word, choice, gap_to_write, keys,
-    write_fields,
+    Account, Boundary, Kind, Outcome, Part, Posed, Precision, Processes, Request, Scalar, Session, Solved, WHOLE, Word,
+    choice, gap_to_write, keys, write_fields,
 };
 use ndarray::Array2;
 use serde_json::json;
 
 use self::others::{Named, OTHERS, other_fields};
 use crate::command::Call;
-use crate::options::{ProblemOptions, Scalar};
-use crate::outcome::Outcome;
+use crate::options::ProblemOptions;
 use crate::pictures::MapColours;
 use crate::printing::{Printing, complain};
-use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::results::{self, Results};
 use crate::session::{Strictness, say_new};

@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Result};
 use asperity_maps::Topography;
 use asperity_maps::io::read_field;
-use asperity_scene::{Account, Boundary, Elastic, Inputs, key};
+use asperity_scene::{Account, Boundary, Elastic, Inputs, Units, key};
 use serde_json::Value;
-
-use crate::units::Units;
 
 /// The files of gap and contact pressure.
 pub const GAP: &str = "gap.npy";

@@ -6,18 +6,15 @@ use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Kind, Skin, keys, statistics};
+use asperity_scene::output::{OutputFile, check_apart, write_text};
+use asperity_scene::{Kind, Outcome, Skin, Units, csv, keys, statistics};
 use serde_json::Map;
 
 use crate::command::Call;
-use crate::csv;
 use crate::heights::{self, check_complete, check_room, unread};
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, aligned, warn};
 use crate::report;
 use crate::session;
-use crate::units::Units;
 
 keys! {
     /// Print the statistics of a rough surface.

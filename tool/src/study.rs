@@ -8,7 +8,8 @@ mod work;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 
-use asperity_scene::{Kind, keys};
+use asperity_scene::output::check_free;
+use asperity_scene::{Kind, Outcome, keys, warnings};
 use serde_json::json;
 
 pub use self::cases::SECTIONS;
@@ -16,14 +17,11 @@ use self::cases::Study;
 use self::merge::merge;
 use self::work::{folder, is_done, solve};
 use crate::command::Call;
-use crate::outcome::Outcome;
-use crate::output::check_free;
 use crate::page;
 use crate::parser;
 use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
 use crate::report;
-use crate::warnings;
 
 keys! {
     /// Solve every combination of surfaces, laws and other options, in one table.

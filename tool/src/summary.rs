@@ -3,10 +3,9 @@
 use std::iter::once;
 
 use asperity::Status;
-use asperity_scene::{Account, Skin, rows, shortfalls};
+use asperity_scene::{Account, Skin, Units, rows, shortfalls};
 
 use crate::printing::{bold, complain, green, yellow};
-use crate::units::Units;
 
 /// A table with a column for each of the solves, under their names if they have any.
 pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {

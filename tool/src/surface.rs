@@ -7,14 +7,12 @@ use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{BodyForm, Entries, FormKeys, Kind, RoughnessKeys, keys, statistics};
+use asperity_scene::output::{OutputFile, check_apart, write_text};
+use asperity_scene::{BodyForm, Entries, FormKeys, Kind, LENGTH, Outcome, RoughnessKeys, keys, statistics};
 use serde_json::{Value, json};
 
 use crate::command::Call;
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, in_options, name};
-use crate::quantity::LENGTH;
 use crate::report;
 use crate::scene;
 use crate::stats::{density_table, table};

@@ -4,12 +4,10 @@ use std::path::PathBuf;
 
 use asperity::Surface;
 use asperity_scene::theories::Theories;
-use asperity_scene::{Format, Kind, Scene, keys};
+use asperity_scene::{Format, Kind, Outcome, Scalar, Scene, keys};
 use serde_json::json;
 
 use crate::command::Call;
-use crate::options::Scalar;
-use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
 use crate::printing::in_options;
 use crate::table::{Fill, Table, TableOptions, format_of};

@@ -4,27 +4,23 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use asperity::{Control, Error, Surface};
+use asperity_scene::numbers::percent;
+use asperity_scene::output::{OutputFile, check_apart};
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    Account, After, Boundary, CycleLimits, Entries, Format, Kind, Load, Precision, Row, Rows, Scene, Session, Skin,
-    TableFile, Way, keys, shortfalls,
+    Account, After, Boundary, CycleLimits, Entries, FORCE, Format, Kind, LENGTH, Load, Outcome, PRESSURE, Precision,
+    Processes, Row, Rows, Scalar, Scene, Session, Skin, TableFile, WHOLE, Way, keys, shortfalls, warnings,
 };
 use serde_json::{Map, Value, json};
 
 use crate::command::Call;
 use crate::interruption;
-use crate::numbers::percent;
-use crate::options::{Problem, ProblemOptions, Scalar};
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, check_apart};
+use crate::options::{Problem, ProblemOptions};
 use crate::printing::{Printing, complain, name};
-use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
-use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::SceneFile;
 use crate::session::{Strictness, UNCONVERGED, say_new};
-use crate::warnings;
 
 keys! {
     /// Whether a table is filled anew.

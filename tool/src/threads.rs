@@ -1,6 +1,6 @@
 //! The threads of the tool.
 
-use crate::outcome::Outcome;
+use asperity_scene::Outcome;
 
 /// Makes every solve of this process use so many threads.
 #[cfg(feature = "parallel")]

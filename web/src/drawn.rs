@@ -1,8 +1,7 @@
 //! Charts and colours, as in the pictures of the program.
 
 use asperity_plot::{Chart, Colouring, DPI, Paper};
-use asperity_scene::outcome::Outcome;
-use asperity_scene::{Adhesion, LAWS, key};
+use asperity_scene::{Adhesion, LAWS, Outcome, key};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

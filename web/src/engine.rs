@@ -5,10 +5,9 @@ use asperity::contact::bulk_range;
 use asperity_maps::io::{Reading, channels, check_memory, map_as_npz};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::outcome::Outcome;
-use asperity_scene::units::Units;
 use asperity_scene::{
-    Case, CutOffKeys, FormKeys, GridKeys, Keys, Log, NewLengthsKeys, Objects, RoughnessKeys, Skin, StepKeys, statistics,
+    Case, CutOffKeys, FormKeys, GridKeys, Keys, Log, NewLengthsKeys, Objects, Outcome, RoughnessKeys, Skin, StepKeys,
+    Units, statistics,
 };
 use ndarray::Array2;
 use serde_json::{Value, json};

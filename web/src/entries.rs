@@ -1,7 +1,6 @@
 //! What a user has typed into the fields of the page, by their keys.
 
-use asperity_scene::outcome::Outcome;
-use asperity_scene::{Entries, Input, Key, Skin, worded};
+use asperity_scene::{Entries, Input, Key, Outcome, Skin, worded};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 

@@ -15,8 +15,7 @@ pub use engine::Engine;
 pub use problem::Observe;
 
 use asperity::Error;
-use asperity_scene::GIB;
-use asperity_scene::outcome::Outcome;
+use asperity_scene::{GIB, Outcome};
 use js_sys::Function;
 use wasm_bindgen::prelude::*;
 

@@ -1,11 +1,9 @@
 //! The contact problem of a page: what its keys pose on a surface, in either precision.
 
 use asperity_maps::Topography;
-use asperity_scene::outcome::Outcome;
-use asperity_scene::processes::Processes;
 use asperity_scene::{
-    AdhesionKeys, AnySession, Case, Either, Key, Keys, LoadKeys, LoadsKeys, Map, Maps, NestedKeys, PathKeys,
-    SolverKeys, SurfaceKeys, Way, either,
+    AdhesionKeys, AnySession, Case, Either, Key, Keys, LoadKeys, LoadsKeys, Map, Maps, NestedKeys, Outcome, PathKeys,
+    Processes, SolverKeys, SurfaceKeys, Way, either,
 };
 use ndarray::Array2;
 use serde_json::{Map as KeyValues, Value};

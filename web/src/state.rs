@@ -8,11 +8,9 @@ use asperity::solver::Iteration;
 use asperity::{Grid, Solution, Surface};
 use asperity_maps::io::npz;
 use asperity_plot::{Distribution, LoadScale};
-use asperity_scene::outcome::Outcome;
-use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, After, Answer, Case, Inputs, Load, Part, Rows, Scalar, Session, Skin, Way, csv, gap_to_write, rows,
-    shortfalls,
+    Account, After, Answer, Case, Inputs, Load, Outcome, Part, Rows, Scalar, Session, Skin, Units, Way, csv,
+    gap_to_write, rows, shortfalls,
 };
 use ndarray::Array2;
 use serde_json::{Map as Object, Value, json};

@@ -26,13 +26,13 @@ mod options;
 mod pair;
 mod preparation;
 mod quantities;
-pub mod quantity;
+mod quantity;
 mod request;
 mod scalar;
 mod scene;
 mod symbol;
 pub mod synonyms;
-pub mod units;
+mod units;
 mod wall;
 mod words;
 
@@ -57,11 +57,12 @@ pub use self::options::chosen;
 pub use self::pair::between;
 pub use self::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
 pub use self::quantities::{Quantities, QuantityEntry};
+pub use self::quantity::*;
 pub use self::request::{NestedKeys, PathKeys, Request};
 pub use self::scalar::Scalar;
 pub use self::scene::{Branches, Files, Precision, Scene, SolverKeys};
 pub use self::symbol::{Stiffness, Symbol};
-pub use self::units::UnitKeys;
+pub use self::units::{UnitKeys, Units};
 pub use self::wall::{Constraint, Wall};
 pub use self::words::{Skin, worded};
 
@@ -72,8 +73,7 @@ pub(crate) use self::entries::Read;
 pub(crate) use self::laws::WORK;
 pub(crate) use self::macros::{choice, keys, readable, record};
 pub(crate) use self::number::is_reported;
-pub(crate) use self::quantity::*;
-pub(crate) use self::units::{Units, is_unit};
+pub(crate) use self::units::is_unit;
 use crate::key::list::{Loads, parsed};
 
 /// A parameter that a law or a body needs.

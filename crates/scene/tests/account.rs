@@ -7,15 +7,12 @@ use asperity::accuracy::Quantity;
 use asperity::path::PathSettings;
 use asperity::solver::Method;
 use asperity::{Control, Grid, SelfAffine, Status, Surface};
-use asperity_scene::outcome::Outcome;
-use asperity_scene::processes::Processes;
 use asperity_scene::theories::Theories;
-use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, AdhesionKeys, After, Answer, Boundary, Case, Elastic, Entries, Goal, GridErrors, GridLevel,
-    Input, Inputs, Keys, Map, Maps, Number, Objects, OtherBranch, Precision, Quantities, Refinement, Request, Row,
-    Rows, Scene, Search, Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys, TableFile, Way,
-    check_finite, rows, shortfalls, worded,
+    Input, Inputs, Keys, Map, Maps, Number, Objects, OtherBranch, Outcome, Precision, Processes, Quantities,
+    Refinement, Request, Row, Rows, Scene, Search, Session, Skin, Slopes, Solved, SolverKeys, Steadiness, SurfaceKeys,
+    TableFile, Units, Way, check_finite, rows, shortfalls, worded,
 };
 use ndarray::Array2;
 use serde::Deserialize;

@@ -3,11 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use asperity_scene::Identity;
 use asperity_scene::csv::{header, line, names, parsed};
 use asperity_scene::journal::{Journal, Row, state_path};
-use asperity_scene::outcome::Outcome;
 use asperity_scene::output::with_suffix;
+use asperity_scene::{Identity, Outcome};
 use serde_json::{Value, json};
 
 const HEADER: &str = "load,answer\n";

@@ -7,12 +7,11 @@ use asperity_scene::fall::{Fall, time};
 use asperity_scene::legs::{Leg, abscissa, legs, logarithmic};
 use asperity_scene::list::{Loads, parsed};
 use asperity_scene::pace::Pace;
-use asperity_scene::quantity::{
-    AREA, CONDUCTIVITY, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY, power_of_length, times_ten_to,
-};
 use asperity_scene::synonyms::{SYNONYMS, is_same, meant, similar};
-use asperity_scene::units::Units;
+use asperity_scene::{
+    AREA, CONDUCTIVITY, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY, Units, power_of_length, times_ten_to,
+};
 use serde_json::{Value, json};
 
 #[test]

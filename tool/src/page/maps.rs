@@ -3,15 +3,13 @@
 use asperity::Grid;
 use asperity_maps::io::read_field;
 use asperity_plot::{Chart, Colouring, Distribution, Map, Paper};
-use asperity_scene::{Account, Adhesion, Boundary, Inputs, key};
+use asperity_scene::{Account, Adhesion, Boundary, Inputs, Outcome, Units, key};
 use ndarray::Zip;
 use serde_json::Value;
 
 use super::{FINE, Page};
-use crate::outcome::Outcome;
 use crate::pictures::{MapColours, draw_contact, draw_pressure, mark_yielded};
 use crate::solved::Solved;
-use crate::units::Units;
 
 /// The finest resolution of the maps.
 const FINEST: f64 = 1200.0;

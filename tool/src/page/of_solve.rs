@@ -7,7 +7,8 @@ use std::path::Path;
 use asperity::Error;
 use asperity::accuracy::Quantity;
 use asperity_scene::{
-    Account, Adhesion, Elastic, GROUPS, GridErrors, Inputs, Measure, Notice, OF_ADHESION, PulledOff, corrected, key,
+    Account, Adhesion, ENERGY, ENERGY_PER_AREA, Elastic, GROUPS, GridErrors, Inputs, Measure, Notice, OF_ADHESION,
+    Outcome, PRESSURE, PulledOff, Units, corrected, key,
 };
 use serde::Deserialize;
 use serde_json::Value;
@@ -18,14 +19,11 @@ use super::{FINE, Page};
 use crate::columns::spaced;
 use crate::contact;
 use crate::leak;
-use crate::outcome::Outcome;
 use crate::pictures::MapColours;
-use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
 use crate::report::LAST;
 use crate::results::{Contents, REPORT};
 use crate::scene;
 use crate::solved::{Solved, units_of};
-use crate::units::Units;
 
 /// The page of a folder of results.
 pub fn page(folder: &Path, colours: &MapColours, is_si: bool) -> Outcome<String> {

@@ -8,23 +8,18 @@ use std::path::Path;
 use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::escaped;
+use asperity_scene::allowed::Range;
 use asperity_scene::legs::{CASE, abscissa, value, varied};
-use asperity_scene::{Account, Format, Load, Step, dimension_of_key, key};
+use asperity_scene::list::parsed;
+use asperity_scene::{Account, Format, Load, Outcome, Quantity, Step, Units, csv, dimension_of_key, key, warnings};
 use serde_json::Value;
 use toml::Table;
 
 use super::figures::{place, shown};
 use super::{FINE, Page};
-use crate::allowed::Range;
 use crate::columns::{Columns, spaced};
-use crate::csv;
-use crate::loads::parsed;
-use crate::outcome::Outcome;
 use crate::pictures::{PlotOptions, chart, chart_of_columns, chart_of_loads};
-use crate::quantity::Quantity;
 use crate::scene;
-use crate::units::Units;
-use crate::warnings;
 
 /// The page of a table of loads, or of a study.
 pub fn page(table: &Path) -> Outcome<String> {

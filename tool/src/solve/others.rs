@@ -1,10 +1,8 @@
 //! The fields that a solve may leave besides gap and pressures: the softest mode, displacements, and the plastic depth.
 
 use asperity::{Result, Surface};
-use asperity_scene::{Answer, Elastic, gap_to_write};
+use asperity_scene::{Answer, Elastic, Scalar, gap_to_write};
 use ndarray::Array2;
-
-use crate::options::Scalar;
 
 /// The files.
 pub const OTHERS: [&str; 4] = ["mode.npy", "displacement.npy", "against_displacement.npy", "plastic_depth.npy"];

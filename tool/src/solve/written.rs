@@ -3,16 +3,13 @@
 use asperity::Solution;
 use asperity::contact::PressureDistribution;
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, gap_to_write};
+use asperity_scene::output::write_text;
+use asperity_scene::{Account, Scalar, Units, csv, gap_to_write};
 
 use super::others::Named;
 use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, PICTURES, VTI};
-use crate::csv;
-use crate::options::Scalar;
-use crate::output::write_text;
 use crate::pictures::{self, FormatKeys, MapColours, PaperOptions};
 use crate::results::write_report;
-use crate::units::Units;
 
 impl Job<'_> {
     /// Writes the files but for fields, where each process writes its rows; files of the `whole` solution, where there

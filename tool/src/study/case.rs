@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use asperity::Grid;
 use asperity::solver::Iteration;
 use asperity_maps::Topography;
+use asperity_scene::output::write_text;
 use asperity_scene::warnings::Warnings;
-use asperity_scene::{Account, After, Format, Load, Precision, Skin, TableFile, Way, shortfalls};
+use asperity_scene::{
+    Account, After, Format, Load, Outcome, Precision, Processes, Scalar, Skin, TableFile, Way, shortfalls,
+};
 
-use crate::options::{Problem, ProblemOptions, Scalar};
-use crate::outcome::Outcome;
-use crate::output::write_text;
+use crate::options::{Problem, ProblemOptions};
 use crate::printing::{Warn, in_options};
-use crate::processes::Processes;
 use crate::scene::SceneFile;
 use crate::session::Strictness;
 

@@ -5,19 +5,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity_scene::{Format, Hash, Key, Values};
+use asperity_scene::list::parsed;
+use asperity_scene::synonyms::similar;
+use asperity_scene::{Format, Hash, Key, Outcome, Quantity, Values, number_and_unit};
 use clap::Command as Parser;
 use toml::{Table, Value};
 
 use super::work::folder as folder_of;
 use crate::command::{Command, Place};
 use crate::entries::{Reader, document, entries};
-use crate::loads::parsed;
-use crate::outcome::Outcome;
 use crate::printing::on_terminal;
-use crate::quantity::{Quantity, number_and_unit};
 use crate::scene::SceneFile;
-use crate::synonyms::similar;
 use crate::table::format_of;
 use crate::{named, part_of};
 

@@ -4,15 +4,14 @@ use std::fs::{self, File};
 use std::path::Path;
 
 use asperity::Error;
-use asperity_scene::Notice;
+use asperity_scene::csv::bare;
 use asperity_scene::legs::CASE;
+use asperity_scene::output::{OutputFile, write_text};
+use asperity_scene::warnings::{read_beside, write_beside};
+use asperity_scene::{Notice, Outcome};
 use serde_json::{Map, Number, Value};
 
 use super::cases::{Case, Study, text};
-use crate::csv::bare;
-use crate::outcome::Outcome;
-use crate::output::{OutputFile, write_text};
-use crate::warnings::{read_beside, write_beside};
 
 /// Writes the table of a study with all cases done; the number of its rows, and of rows that did not converge.
 pub fn merge(study: &Study) -> Outcome<(usize, usize)> {

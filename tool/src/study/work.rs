@@ -10,18 +10,16 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use asperity::Error;
-use asperity_scene::Hash;
+use asperity_scene::journal::{is_whole, state_path};
+use asperity_scene::output::{with_suffix, write_text};
+use asperity_scene::{Hash, Outcome, Processes, warnings};
 
 use super::case::Run;
 use super::cases::Study;
 use crate::interruption::stands;
-use crate::journal::{is_whole, state_path};
-use crate::outcome::Outcome;
-use crate::output::{with_suffix, write_text};
 use crate::printing::{Printing, Warn, complain, on_terminal};
-use crate::processes::Processes;
 use crate::threads;
-use crate::{named, surface, warnings};
+use crate::{named, surface};
 
 /// The folder of the cases, next to the table.
 pub fn folder(table: &Path) -> PathBuf {
