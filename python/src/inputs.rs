@@ -94,6 +94,7 @@ pub struct Map<'py> {
     /// The nodes of the original of a mirrored one
     original: Option<(usize, usize)>,
     periodic: Option<bool>,
+    seed: Option<u64>,
     scars_removed: Option<f64>,
     source: Option<String>,
     #[pyo3(attribute("_unread"))]
@@ -101,11 +102,18 @@ pub struct Map<'py> {
 }
 
 impl Map<'_> {
+    /// The map of the library, without the names of what else is in its file.
+    pub fn topography(&self) -> PyResult<Topography> {
+        let mut map = Topography::new(self.heights.to_array()?);
+        (map.lengths, map.unit, map.original) = (self.lengths, self.unit.clone(), self.original);
+        (map.seed, map.scars_removed, map.periodic) = (self.seed, self.scars_removed, self.periodic);
+        Ok(map)
+    }
+
     /// The map with its name, as a case takes it.
     pub fn named(self) -> PyResult<asperity_scene::Map> {
-        let mut map = Topography::new(self.heights.to_array()?);
-        (map.lengths, map.unit, map.original) = (self.lengths, self.unit, self.original);
-        (map.periodic, map.scars_removed, map.unread) = (self.periodic, self.scars_removed, self.unread);
+        let mut map = self.topography()?;
+        map.unread = self.unread;
         Ok(asperity_scene::Map::whole(self.source, map))
     }
 }

@@ -14,16 +14,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
+use crate::inputs::Map;
 use crate::keywords;
 use crate::numbers::{Field, whole};
 use crate::pools::apart;
 use crate::refusal::{reason, refusal};
 use crate::report::reported;
 
-/// A map: Python gives attributes and gets a dictionary.
-#[derive(FromPyObject, IntoPyObject)]
-pub struct Map<H> {
-    heights: H,
+/// A map that Python gets, as a dictionary.
+#[derive(IntoPyObject)]
+pub struct OutputMap<'py> {
+    heights: Bound<'py, PyArray2<f64>>,
     lengths: Option<(f64, f64)>,
     unit: Option<String>,
     original: Option<(usize, usize)>,
@@ -32,26 +33,10 @@ pub struct Map<H> {
     periodic: Option<bool>,
 }
 
-/// A map that Python gives.
-pub type InputMap<'py> = Map<Field<'py>>;
-
-/// A map that Python gets.
-type OutputMap<'py> = Map<Bound<'py, PyArray2<f64>>>;
-
 impl<'py> OutputMap<'py> {
     fn new(py: Python<'py>, topography: Topography) -> Self {
         let Topography { heights, lengths, unit, original, seed, scars_removed, periodic, .. } = topography;
         Self { heights: heights.into_pyarray(py), lengths, unit, original, seed, scars_removed, periodic }
-    }
-}
-
-impl InputMap<'_> {
-    /// The map of the library.
-    pub fn topography(self) -> PyResult<Topography> {
-        let mut map = Topography::new(self.heights.to_array()?);
-        (map.lengths, map.unit, map.original) = (self.lengths, self.unit, self.original);
-        (map.seed, map.scars_removed, map.periodic) = (self.seed, self.scars_removed, self.periodic);
-        Ok(map)
     }
 }
 
@@ -80,7 +65,7 @@ pub fn read(
 
 /// Writes a map to a file, in the format of its ending; with `force` over one that is there.
 #[pyfunction]
-pub fn write(given: InputMap<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+pub fn write(given: Map<'_>, path: PathBuf, force: bool) -> PyResult<()> {
     let map = given.topography()?;
     let file = OutputFile::create(&path, force).map_err(|error| PyValueError::new_err(error.to_string()))?;
     file.complete(|path| write_topography(path, &map)).map_err(refusal)
@@ -173,7 +158,7 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
 
 /// A map in metres.
 #[pyfunction]
-pub fn in_metres<'py>(py: Python<'py>, given: InputMap<'py>) -> PyResult<OutputMap<'py>> {
+pub fn in_metres<'py>(py: Python<'py>, given: Map<'py>) -> PyResult<OutputMap<'py>> {
     let found = in_unit(given.topography()?, LENGTH.si);
     Ok(OutputMap::new(py, found.map_err(|text| reason(format!("heights: {text}")))?))
 }
@@ -185,7 +170,7 @@ type Prepared<'py> = (OutputMap<'py>, Vec<String>, Bound<'py, PyAny>);
 #[pyfunction]
 pub fn prepare<'py>(
     py: Python<'py>,
-    given: InputMap<'py>,
+    given: Map<'py>,
     new_lengths: Option<(f64, f64)>,
     cut_off_wavelength: Option<f64>,
     in_metres: bool,
