@@ -3,7 +3,7 @@
 use asperity_maps::Topography;
 use asperity_scene::{
     AdhesionKeys, AnySession, Case, Either, Key, Keys, LoadKeys, LoadsKeys, Map, Maps, NestedKeys, Outcome, PathKeys,
-    Processes, SolverKeys, SurfaceKeys, Way, either,
+    Processes, SolverKeys, SurfaceKeys, either,
 };
 use ndarray::Array2;
 use serde_json::{Map as KeyValues, Value};
@@ -73,10 +73,7 @@ impl Problem {
     /// # Errors
     /// The key and the remedy.
     pub fn begin(&mut self, case: &Case) -> Outcome<Value> {
-        let loads = case.loads()?;
-        let full = either!(state = &self.state => state.full_pressure(&loads))?;
-        let way = Way::cycle(&loads, full, case.given().path())?;
-        either!(state = &mut self.state => state.begin(way, case.quantities().texts()))
+        either!(state = &mut self.state => state.begin(case))
     }
 
     /// The next state along the loads; nothing at their end.

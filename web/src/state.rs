@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use asperity::contact::{Region, bulk_range};
 use asperity::solver::Iteration;
-use asperity::{Grid, Solution, Surface};
+use asperity::{Solution, Surface};
 use asperity_maps::io::npz;
 use asperity_plot::{Distribution, LoadScale};
 use asperity_scene::{
-    Account, After, Answer, Case, Inputs, Load, Outcome, Part, Rows, Scalar, Session, Skin, Units, Way, csv,
-    gap_to_write, rows, shortfalls,
+    Account, After, Answer, Case, Inputs, Outcome, Part, Rows, Scalar, Session, Skin, Units, Way, csv, gap_to_write,
+    rows, shortfalls,
 };
 use ndarray::Array2;
 use serde_json::{Map as Object, Value, json};
@@ -64,19 +64,9 @@ impl<T: Scalar> State<T> {
         self.last.as_ref().map(|last| &last.found.solution.gap).or(self.before.as_ref())
     }
 
-    /// The unit of a reduced pressure, if one is among `loads`.
-    pub fn full_pressure(&self, loads: &[Load]) -> Outcome<f64> {
-        self.session.full_pressure(loads)
-    }
-
     /// The last solution.
     fn last(&self) -> Outcome<&Last<T>> {
         Ok(self.last.as_ref().ok_or("nothing is solved yet: solve first")?)
-    }
-
-    /// The grid of the results.
-    fn shown(&self) -> Grid {
-        self.part.grid()
     }
 
     /// A field of a solution by its name, on the part with results, if the solution has it.
@@ -141,7 +131,7 @@ impl<T: Scalar> State<T> {
     /// Solves under a load, from the last solution where there is one that fits.
     pub fn solve(&mut self, case: &Case, from_last: bool, observe: Observe<'_>) -> Outcome<(Value, bool)> {
         let shape = self.surface.grid().shape();
-        let full = self.full_pressure(&[case.load()?])?;
+        let full = self.session.full_pressure(&[case.load()?])?;
         let nested = case.request(full, false)?.nested == Some(true);
         let started = self.known().is_some_and(|gap| from_last && gap.dim() == shape && !nested);
         let asked = &case.request(full, started)?;
@@ -164,10 +154,11 @@ impl<T: Scalar> State<T> {
     }
 
     /// Begins a way through loads.
-    pub fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
-        let mut session = self.session.clone();
+    pub fn begin(&mut self, case: &Case) -> Outcome<Value> {
+        let (loads, mut session) = (case.loads()?, self.session.clone());
+        let way = Way::cycle(&loads, session.full_pressure(&loads)?, case.given().path())?;
         let control = way.control(&session.facts.scene);
-        session.facts.inputs.given = quantities;
+        session.facts.inputs.given = case.quantities().texts();
         let rows = self.rows.insert(session.begin(way, After::default(), false, None, None)?);
         let columns = rows.columns();
         let names = self.session.facts.units.columns(&columns, control.name(), self.surface.grid().is_line());
@@ -258,7 +249,7 @@ impl<T: Scalar> State<T> {
                     FIELDS.iter().map(|name| Ok((*name, self.named(name, &part)?))).collect::<Outcome<Vec<_>>>()?;
                 let fields: Vec<_> =
                     fields.iter().filter_map(|(name, field)| Some((*name, field.as_ref()?.view()))).collect();
-                Ok(npz(&self.shown(), &fields)?)
+                Ok(npz(&self.part.grid(), &fields)?)
             }
             START => {
                 let start = self.last()?.start.as_ref().ok_or("the last solve started from the default")?;
