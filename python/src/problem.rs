@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use asperity_maps::Topography;
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    AccuracyKeys, AnyRows, AnySession, Boundary, Case, ConductorKeys, CycleAccuracyKeys, Entries, FindingsKeys,
-    FractionsKeys, Keys, LENGTH, LeakageKeys, Load, LoadKeys, LoadsKeys, Maps, NestedKeys, Objects, PathKeys,
-    Processes, PullOffKeys, Skin, StiffnessKeys, Way, either, worded,
+    AccuracyKeys, AnyRows, AnySession, Case, ConductorKeys, CycleAccuracyKeys, Entries, FindingsKeys, FractionsKeys,
+    Keys, LENGTH, LeakageKeys, Load, LoadKeys, LoadsKeys, Maps, NestedKeys, Objects, PathKeys, Processes, PullOffKeys,
+    Skin, StiffnessKeys, Way, either, worded,
 };
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
@@ -167,11 +167,6 @@ impl Problem {
         let loads = parts.iter().map(|part| part.loads().map_err(reason)).collect::<PyResult<Vec<_>>>()?.concat();
         let is_interface = way == "interface";
         let after = case.after(is_interface).map_err(refusal_of_session)?;
-        if is_interface && case.scene().elastic.boundary == Boundary::Free {
-            return Err(PyValueError::new_err(
-                "boundary is 'free': an interface has its law per area of a periodic cell",
-            ));
-        }
         let at = self.at(py, observe)?;
         let (full, count) = (full_pressure(&session, &at, &loads)?, loads.len());
         let goal = case.given().cycle_goal().map_err(reason)?;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use asperity::Error;
 use asperity_scene::interface::Code;
 use asperity_scene::output::{OutputFile, check_apart, check_free, write_text};
-use asperity_scene::{Boundary, Facts, Format, Kind, Outcome, Scalar, keys};
+use asperity_scene::{Facts, Format, Kind, Outcome, Scalar, keys};
 use serde_json::{Value, json};
 
 use crate::command::Call;
@@ -49,9 +49,6 @@ pub fn run(call: &Call<'_>) -> Outcome<bool> {
     let out = &options.out;
     let table = TableOptions { interface: true, ..TableOptions::new(call, out, Format::Csv, None)? };
     let problem = &table.problem;
-    if problem.case.scene().elastic.boundary == Boundary::Free {
-        return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
-    }
     problem.case.check_elastic("the contact stiffness of an interface is known for elastic contact alone")?;
     if Format::from_path(out) != Some(Format::Csv) {
         return Err(Error::file(out, "does not end in .csv: rename it").into());

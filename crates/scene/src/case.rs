@@ -10,7 +10,9 @@ use asperity::adhesion::Formula;
 pub use self::maps::{Map, Maps, complete, sided};
 pub use self::part::Part;
 pub use self::posed::Posed;
-use crate::key::{Adhesion, After, Branches, Entries, Load, Quantities, Request, Scene, Skin, Symbol, worded};
+use crate::key::{
+    Adhesion, After, Boundary, Branches, Entries, Load, Quantities, Request, Scene, Skin, Symbol, worded,
+};
 use crate::outcome::Outcome;
 
 /// What a face gives as objects, in the place of keys.
@@ -132,6 +134,10 @@ impl Case {
     /// # Errors
     /// As [`Entries::after`] and [`After::check`].
     pub fn after(&self, is_interface: bool) -> Outcome<After> {
+        if is_interface && self.scene.elastic.boundary == Boundary::Free {
+            let text = "{boundary=free}: an interface has its law per area of a periodic cell: leave it out";
+            return self.worded(Err(text.to_owned()));
+        }
         let after = self.worded(self.given.after())?;
         let after = After { stiffness: after.stiffness || is_interface, ..after };
         self.worded(after.check(&self.scene.elastic, &self.scene.adhesion))?;
