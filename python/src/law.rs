@@ -114,7 +114,7 @@ impl Law {
     /// The law of an object: one of the library, a table of the functions that it has, or no adhesion for `None`.
     pub fn from_object(object: &Bound<'_, PyAny>) -> PyResult<Self> {
         if object.is_none() {
-            return Self::of_library(Adhesion::record("none"));
+            return Self::of_library(Adhesion::default());
         }
         Self::some(object)
     }
@@ -127,8 +127,8 @@ impl Law {
         let functions = Functions::from_object(object)?;
         let Functions { work_of_adhesion, range, .. } = functions;
         let formula: Formula = asperity::Tabulated::of(functions).map_err(refusal)?.into();
-        let name = object.get_type().name()?.to_string();
-        let adhesion = Adhesion { work_of_adhesion, range, ..Adhesion::record(name) };
+        let law = object.get_type().name()?.to_string();
+        let adhesion = Adhesion { law, work_of_adhesion, range, ..Adhesion::default() };
         Ok(Self { formula, adhesion, given: LawNumbers::default() })
     }
 
@@ -188,7 +188,7 @@ fn table(
     source: Option<String>,
 ) -> Table<'_> {
     let law_table = source.clone().or_else(|| Some("array".to_owned()));
-    let adhesion = Adhesion { law_table, ..Adhesion::record("table") };
+    let adhesion = Adhesion { law: "table".to_owned(), law_table, ..Adhesion::default() };
     let law = Law { formula: Arc::new(law), adhesion, given: LawNumbers::default() };
     (law, (gaps.into_pyarray(py), tractions.into_pyarray(py), source))
 }

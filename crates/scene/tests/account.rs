@@ -28,7 +28,12 @@ fn names(lists: &[&[Number]]) -> Vec<&'static str> {
 }
 
 fn scene() -> Scene {
-    let adhesion = Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::record("exponential") };
+    let adhesion = Adhesion {
+        law: "exponential".to_owned(),
+        work_of_adhesion: Some(2e-5),
+        range: Some(8e-3),
+        ..Adhesion::default()
+    };
     Scene { adhesion, ..Scene::default() }
 }
 
@@ -179,7 +184,7 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
 
 #[test]
 fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
-    let scene = Scene { adhesion: Adhesion { hardness: Some(0.08), ..Adhesion::record("none") }, ..Scene::default() };
+    let scene = Scene { adhesion: Adhesion { hardness: Some(0.08), ..Adhesion::default() }, ..Scene::default() };
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
@@ -251,7 +256,7 @@ fn warnings_of_the_input_stand_in_accounts_and_rows_and_may_be_errors() {
 
 #[test]
 fn a_scene_with_a_hardness_is_data_and_one_without_still_reads() {
-    let adhesion = Adhesion { hardness: Some(0.25), ..Adhesion::record("none") };
+    let adhesion = Adhesion { hardness: Some(0.25), ..Adhesion::default() };
     let run = Scene { adhesion, tolerance: Some(1e-6), max_iterations: Some(2000), ..Scene::default() };
     assert_eq!(serde_json::from_value::<Scene>(json!(run.inputs((4, 4), (1.0, 1.0), 1))).unwrap(), run);
     let old = json!({ "modulus": 1.0, "law": "none", "wall": "hard", "wall_stiffness": null });

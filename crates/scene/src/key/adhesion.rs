@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Constraint, ENERGY, ENERGY_PER_AREA, Kind, LAWS, LENGTH, Law, PRESSURE, PRESSURE_PER_LENGTH, Range, Scalar, WORK,
-    Wall, Word, keys, record,
+    Constraint, ENERGY, ENERGY_PER_AREA, Entries, Kind, LAWS, LENGTH, Law, PRESSURE, PRESSURE_PER_LENGTH, Range,
+    Scalar, WORK, Wall, Word, keys, record,
 };
 use crate::numbers::plain;
 
@@ -58,62 +58,46 @@ record! {
     /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default)]
-    Adhesion of (law: impl Into<String>) {
+    Adhesion of (keys: AdhesionKeys) {
         /// The name of the law, one of [`LAWS`] or the class of one's own.
-        law: String = law.into(),
+        law: String = keys.law.unwrap_or(LAWS[0].name.to_owned()),
         /// The work of adhesion, if it is a parameter.
-        work_of_adhesion: Option<f64> = None,
+        work_of_adhesion: Option<f64> = keys.work_of_adhesion,
         /// The range, if it is a parameter.
-        range: Option<f64> = None,
+        range: Option<f64> = keys.range,
         /// The exponent of a power law.
-        exponent: Option<f64> = None,
+        exponent: Option<f64> = keys.exponent,
         /// Hamaker's constant, if it is a parameter.
-        hamaker: Option<f64> = None,
+        hamaker: Option<f64> = keys.hamaker,
         /// The file of a table.
-        law_table: Option<String> = None,
+        law_table: Option<String> = keys.law_table.map(named),
         /// The gap at which the law is cut off, if it is.
-        cut_off: Option<f64> = None,
+        cut_off: Option<f64> = keys.cut_off,
         /// The file of works of adhesion that vary.
-        work_of_adhesion_map: Option<String> = None,
+        work_of_adhesion_map: Option<String> = keys.work_of_adhesion_map.map(named),
         /// The wall.
-        wall: Wall = Wall::default(),
+        wall: Wall = keys.wall.unwrap_or_default(),
         /// The stiffness of the springs of a wall that has some, a pressure per length.
-        wall_stiffness: Option<f64> = None,
+        wall_stiffness: Option<f64> = keys.wall_stiffness,
         /// The hardness at which the surface yields, a pressure, if it does; of a hardness that varies its mean, in
         /// reports.
-        hardness: Option<f64> = None,
+        hardness: Option<f64> = keys.hardness,
         /// The file of a hardness that varies.
-        hardness_map: Option<String> = None,
+        hardness_map: Option<String> = keys.hardness_map.map(named),
     }
+}
+
+fn named(path: PathBuf) -> String {
+    path.to_string_lossy().into_owned()
 }
 
 impl Default for Adhesion {
     fn default() -> Self {
-        Self::record("none")
+        Self::record(Entries::default().keys())
     }
 }
 
 impl Adhesion {
-    /// The adhesion and the wall of what was given.
-    pub(crate) fn from_keys(keys: AdhesionKeys) -> Self {
-        let named = |path: Option<PathBuf>| path.map(|path| path.to_string_lossy().into_owned());
-        let AdhesionKeys { law, work_of_adhesion, range, exponent, hamaker, cut_off, wall, wall_stiffness, .. } = keys;
-        Self {
-            law: law.unwrap_or(LAWS[0].name.to_owned()),
-            work_of_adhesion,
-            range,
-            exponent,
-            hamaker,
-            law_table: named(keys.law_table),
-            cut_off,
-            work_of_adhesion_map: named(keys.work_of_adhesion_map),
-            wall: wall.unwrap_or_default(),
-            wall_stiffness,
-            hardness: keys.hardness,
-            hardness_map: named(keys.hardness_map),
-        }
-    }
-
     /// The law, if it is one of the library.
     pub fn law(&self) -> Option<&'static Law> {
         Law::named(&self.law)

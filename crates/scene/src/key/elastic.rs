@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Boundary, ENERGY, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Units, Word, keys, needed, readable, record,
+    Boundary, ENERGY, Entries, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Units, Word, keys, needed, readable, record,
 };
 
 keys! {
@@ -79,29 +79,29 @@ record! {
     /// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default)]
-    Elastic of () {
+    Elastic of (keys: SurfaceKeys) {
         /// The boundary.
-        boundary: Boundary = Boundary::default(),
+        boundary: Boundary = keys.boundary.unwrap_or_default(),
         /// The contact modulus E*, a pressure; of a coated body the substrate's.
-        modulus: f64 = 1.0,
+        modulus: f64 = keys.modulus.unwrap_or(1.0),
         /// Poisson's ratio of a layer or of the substrate under a coating.
-        poisson: Option<f64> = None,
+        poisson: Option<f64> = keys.poisson,
         /// The thickness of a layer on a rigid base, a length.
-        layer: Option<f64> = None,
-        /// The hold of the base on a layer.
-        base: Option<Base> = None,
+        layer: Option<f64> = keys.layer,
+        /// The hold of the base on a layer; bonded by default.
+        base: Option<Base> = keys.base.or(keys.layer.map(|_| Base::default())),
         /// The thickness of a coating on a half-space, a length.
-        coating: Option<f64> = None,
+        coating: Option<f64> = keys.coating,
         /// The contact modulus of a coating, a pressure.
-        coating_modulus: Option<f64> = None,
+        coating_modulus: Option<f64> = keys.coating_modulus,
         /// Poisson's ratio of a coating.
-        coating_poisson: Option<f64> = None,
+        coating_poisson: Option<f64> = keys.coating_poisson,
         /// The bending stiffness of a plate on a half-space, an energy.
-        plate: Option<f64> = None,
+        plate: Option<f64> = keys.plate,
         /// The body of a user's own, by the stiffness of its waves.
         symbol: Option<Symbol> = None,
         /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
-        against_modulus: Option<f64> = None,
+        against_modulus: Option<f64> = keys.against_modulus,
     }
 }
 
@@ -111,7 +111,7 @@ readable! {
 
 impl Default for Elastic {
     fn default() -> Self {
-        Self::record()
+        Self::record(Entries::default().keys())
     }
 }
 
@@ -193,16 +193,6 @@ fn or_nan(number: Option<f64>) -> f64 {
 }
 
 impl Elastic {
-    /// The body of what was given; a layer is bonded by default.
-    pub(crate) fn from_keys(keys: SurfaceKeys) -> Self {
-        let SurfaceKeys { boundary, modulus, poisson, layer, base, coating, plate, against_modulus, .. } = keys;
-        let SurfaceKeys { coating_modulus, coating_poisson, .. } = keys;
-        let (boundary, modulus) = (boundary.unwrap_or_default(), modulus.unwrap_or(1.0));
-        let base = base.or(layer.map(|_| Base::default()));
-        let own = Self { boundary, modulus, poisson, layer, base, coating, plate, against_modulus, ..Self::default() };
-        Self { coating_modulus, coating_poisson, ..own }
-    }
-
     /// The keys of the body itself, in the order of its kinds.
     fn own(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
         let of_half_space = ["boundary", "modulus", "against_modulus"];

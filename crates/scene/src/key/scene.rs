@@ -118,7 +118,7 @@ impl Entries {
     pub fn scene(&self) -> Scene {
         let SolverKeys { method, tolerance, max_iterations, precision, branch, .. } = self.keys();
         let (method, precision) = (method.unwrap_or_default(), precision.unwrap_or_default());
-        let (elastic, adhesion) = (Elastic::from_keys(self.keys()), Adhesion::from_keys(self.keys()));
+        let (elastic, adhesion) = (Elastic::record(self.keys()), Adhesion::record(self.keys()));
         Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch }
     }
 
