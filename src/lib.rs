@@ -127,6 +127,8 @@ pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;
+#[doc(hidden)]
+pub use par::along_sides;
 pub use problem::{Control, Problem};
 #[doc(inline)]
 pub use pull_off::PullOff;

@@ -262,6 +262,17 @@ fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(dyn Fn(usize, P
     }
 }
 
+/// What is found along both sides of a map of so many nodes, by the axes, side by side if that is worth a worker.
+#[doc(hidden)]
+pub fn along_sides<R: Send>(nodes: usize, find: impl Fn(usize) -> R + Sync) -> [R; 2] {
+    #[cfg(feature = "parallel")]
+    if nodes > WORTH && workers() > 1 {
+        return rayon::join(|| find(0), || find(1)).into();
+    }
+    let _ = nodes;
+    [0, 1].map(find)
+}
+
 /// Runs work of many loops on one of the workers, where each loop starts at once. From another thread each loop would
 /// have to wake a worker first.
 #[cfg(feature = "parallel")]

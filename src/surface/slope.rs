@@ -4,12 +4,15 @@ use std::ops::Range;
 
 use ndarray::{ArrayView2, Axis, Zip};
 
+use crate::par::along_sides;
+
 /// The root mean square of (h(x + Δx) − h(x))/Δx, and likewise along y, over the sides that have neighbours of finite
 /// height; NaN if neither has.
 ///
 /// A `periodic` surface continues from the last node of a side to the first.
 pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bool) -> f64 {
-    let along = |axis: Axis, spacing: f64| {
+    let along = |axis: usize| {
+        let (axis, spacing) = (Axis(axis), [spacing.0, spacing.1][axis]);
         let count = heights.len_of(axis);
         let part = |lines: Range<usize>| heights.slice_axis(axis, lines.into());
         let inside = Zip::from(part(0..count.saturating_sub(1))).and(part(1.min(count)..count));
@@ -30,6 +33,6 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
         let (sum, count) = pairs.fold((0.0, 0.0), |sums, pairs| pairs.fold(sums, add));
         most * f64::sqrt(sum / count)
     };
-    let sides = [along(Axis(0), spacing.0), along(Axis(1), spacing.1)].into_iter();
+    let sides = along_sides(heights.len(), along).into_iter();
     sides.filter(|slope| !slope.is_nan()).reduce(f64::hypot).unwrap_or(f64::NAN)
 }

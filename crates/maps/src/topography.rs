@@ -11,6 +11,7 @@ use asperity::{Error, Grid, Result, Surface};
 mod despike;
 mod fill;
 mod form;
+mod median;
 mod missing;
 mod rows;
 mod scars;
@@ -21,6 +22,7 @@ mod trend;
 pub use despike::Spikes;
 pub use fill::{fill, surface_with_absent};
 pub use form::{Form, FormFit};
+use median::median;
 pub(crate) use rows::LineSteps;
 pub use rows::{RowAlignment, ScanAxis};
 pub use scars::Scars;
@@ -356,19 +358,4 @@ impl From<Surface> for Topography {
 fn named<V, const N: usize>(text: &str, names: [&str; N], values: [V; N]) -> std::result::Result<V, String> {
     let found = names.iter().zip(values).find(|(name, _)| **name == text);
     found.map(|(_, value)| value).ok_or_else(|| format!("it must be {}", names.join(" or ")))
-}
-
-/// The median of the values that are finite: of an even number, the mean of the two in the middle; none if there are
-/// no such values.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    let middle = finite.len() / 2;
-    if finite.is_empty() {
-        return None;
-    }
-    let even = finite.len().is_multiple_of(2);
-    let (below, upper, _) = finite.select_nth_unstable_by(middle, f64::total_cmp);
-    let upper = *upper;
-    let lower = if even { below.iter().copied().fold(f64::NEG_INFINITY, f64::max) } else { upper };
-    Some(lower + 0.5 * (upper - lower))
 }

@@ -60,8 +60,12 @@ impl Extremes {
     pub fn find(heights: &Array2<f64>) -> Self {
         let finite = || heights.iter().copied().filter(|h| h.is_finite());
         let (low, high) = range(finite());
-        let counts = finite().fold([0, 0], |[a, b], h| [a + usize::from(h == low), b + usize::from(h == high)]);
-        let rest = range(finite().filter(|h| *h != low && *h != high));
+        let mut counts = [0, 0];
+        let rest = range(finite().filter(|&h| {
+            let [is_low, is_high] = [h == low, h == high];
+            counts = [counts[0] + usize::from(is_low), counts[1] + usize::from(is_high)];
+            !is_low && !is_high
+        }));
         let mut extremes = Self { low, high, counts, rest, middle: 0.0 };
         if [(low, counts[0]), (high, counts[1])].iter().any(|(value, count)| *count == 1 && extremes.is_far(*value)) {
             let mut sorted: Vec<f64> = finite().collect();

@@ -81,7 +81,13 @@ pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
 pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
     let stride = heights.len().div_ceil(MOST).max(1);
     let magnitudes = heights.iter().step_by(stride).map(|h| h.abs());
-    let mut magnitudes: Vec<f64> = magnitudes.filter(|h| h.is_finite() && *h > 0.0).collect();
+    let magnitudes = magnitudes.filter(|h| h.is_finite() && *h > 0.0);
+    let (least, greatest) = range(magnitudes.clone());
+    // the quartiles lie between
+    if least >= f64::MIN_POSITIVE && greatest.log10() - least.log10() < DECADES {
+        return None;
+    }
+    let mut magnitudes: Vec<f64> = magnitudes.collect();
     if magnitudes.len() < 4 {
         return None;
     }

@@ -1,5 +1,6 @@
 //! The warnings about scan lines: offsets of lines, or of lines along the other axis.
 
+use asperity::along_sides;
 use ndarray::Array2;
 
 use super::part::Part::{Figure, Length, Word};
@@ -29,12 +30,12 @@ const ALIKE: f64 = 2.0;
 
 const AXES: [(ScanAxis, &str); 2] = [(ScanAxis::X, "x"), (ScanAxis::Y, "y")];
 
-/// Whether lines are offset at random, by a share of the steps of single nodes, and lines along the other axis are not.
-fn are_offset(lines: &LineSteps, others: &LineSteps, share: f64) -> bool {
-    lines.change > FAR * others.change
-        && lines.shared > share * lines.single
-        && RANDOM.contains(&(lines.change / lines.shared))
-        && lines.single <= ALIKE * others.single
+/// The offsets of lines in the steps of single nodes, if these lines are offset at random, by more than this share, and
+/// lines along the other axis are not.
+fn offset(lines: &LineSteps<'_>, others: &LineSteps<'_>, share: f64) -> Option<f64> {
+    let are_random = lines.change > FAR * others.change && RANDOM.contains(&(lines.change / lines.shared));
+    let single = are_random.then(|| lines.single())?;
+    (lines.shared > share * single && single <= ALIKE * others.single()).then(|| lines.shared / single)
 }
 
 /// Lines of heights, in a unit, that are offset from one another.
@@ -43,12 +44,13 @@ pub(super) fn offsets(heights: &Array2<f64>, unit: f64) -> Option<Warning> {
     if nx.min(ny) < LEAST {
         return None;
     }
-    let [x, y] = AXES.map(|(axis, _)| LineSteps::measure(heights, axis));
-    let found = [(&x, &y, "x"), (&y, &x, "y")].into_iter().find(|(lines, others, _)| are_offset(lines, others, OFFSET));
-    let (lines, _, axis) = found?;
+    let [x, y] = along_sides(heights.len(), |axis| LineSteps::measure(heights, AXES[axis].0));
+    let found = [(&x, &y, "x"), (&y, &x, "y")].into_iter();
+    let (lines, times, axis) =
+        found.filter_map(|(lines, others, axis)| Some((lines, offset(lines, others, OFFSET)?, axis))).next()?;
     Some(Warning::new(
         WarningCode::LineOffsets,
-        lines.shared / lines.single,
+        times,
         "lines along {} are offset by {}: use align-rows median, scan axis {}",
         [Word(axis.into()), Length(lines.shared * unit), Word(axis.into())],
     ))
@@ -80,9 +82,7 @@ impl Warning {
         let mut axes = AXES;
         axes.sort_by_key(|(axis, _)| *axis != along);
         let [asked, other] = axes.map(|(axis, _)| LineSteps::measure(&map.heights, axis));
-        if !are_offset(&other, &asked, STANDS_OUT) {
-            return None;
-        }
+        offset(&other, &asked, STANDS_OUT)?;
         let [along, across] = axes.map(|(_, name)| Word(name.to_owned()));
         let times =
             if asked.change > 0.0 { Figure(other.change / asked.change) } else { Word("infinitely many".into()) };

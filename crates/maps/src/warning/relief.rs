@@ -1,5 +1,6 @@
 //! The relief of a surface: its figures for the warnings.
 
+use asperity::along_sides;
 use ndarray::{Array2, ArrayView2, Axis, Zip};
 
 use super::extremes::Extremes;
@@ -90,7 +91,7 @@ impl Relief {
         let middle = 0.5 * extremes.high + 0.5 * extremes.low;
         let inverse = (0.5 * extremes.high - 0.5 * extremes.low).recip().min(f64::MAX);
         let heights = heights.mapv(|h| (h - middle) * inverse);
-        let sides = [0, 1].map(|axis| Side::along(Axis(axis), heights.view()));
+        let sides = along_sides(heights.len(), |axis| Side::along(Axis(axis), heights.view()));
         let mean = heights.mean().unwrap_or_default();
         let square = heights.fold(0.0, |sum, h| sum + h * h) / heights.len() as f64;
         let plane: f64 = sides.iter().map(Side::plane_square).sum();
