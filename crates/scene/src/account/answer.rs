@@ -198,7 +198,10 @@ pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), 
     let fields =
         [("gap", gap, report.absent_nodes), ("pressure", pressure, 0), ("contact pressure", contact_pressure, 0)];
     for (name, field, absent) in fields {
-        let count: usize = grid.each(field.iter().filter(|value| !value.is_finite()).count()).iter().sum();
+        // without a count the pass is many times as fast
+        let is_finite = field.fold(true, |all, value| all & value.is_finite());
+        let own = if is_finite { 0 } else { field.iter().filter(|value| !value.is_finite()).count() };
+        let count: usize = grid.each(own).iter().sum();
         if count != absent {
             let other = if T::NAME == "f32" { "{precision=f64}" } else { "another {initial_gap}" };
             return Err(format!(

@@ -121,6 +121,10 @@ pub fn complete(
     absent_missing: bool,
     skin: Skin,
 ) -> Result<(), String> {
+    // without counts and places the pass is many times as fast
+    if heights.fold(true, |all, height| all & height.is_finite()) {
+        return Ok(());
+    }
     let of = |is: fn(f64) -> bool| heights.indexed_iter().filter(move |(_, height)| is(**height));
     let (infinite, missing) = (of(f64::is_infinite).count(), of(f64::is_nan).count());
     let refuse = |kind: &str, count: usize, first: Option<((usize, usize), &f64)>, remedy: &str| {

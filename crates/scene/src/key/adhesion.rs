@@ -119,25 +119,21 @@ impl Adhesion {
         self.hardness.is_some() || self.hardness_map.is_some()
     }
 
-    /// The value of a key in words, if it is given.
-    fn text_of(&self, key: &str) -> Option<String> {
-        match &json!(self)[key] {
-            Value::Null => None,
-            Value::String(text) => Some(text.clone()),
-            number => number.as_f64().map(plain),
-        }
-    }
-
     /// Refuses a law without its parameters, parameters of other laws, and a wall that does not fit.
     ///
     /// # Errors
     /// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
     pub fn check(&self) -> std::result::Result<(), String> {
         let Some(law) = self.law() else { return Ok(()) };
-        let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
+        let (name, mapped, given) = (law.name, self.work_of_adhesion_map.is_some(), json!(self));
+        let text_of = |key: &str| match &given[key] {
+            Value::Null => None,
+            Value::String(text) => Some(text.clone()),
+            number => number.as_f64().map(plain),
+        };
         if law.needs.is_empty() {
             let mut keys = Law::keys().map(|key| key.name).chain(["cut_off", "work_of_adhesion_map"]);
-            if let Some(key) = keys.find(|key| self.text_of(key).is_some()) {
+            if let Some(key) = keys.find(|key| text_of(key).is_some()) {
                 return Err(format!(
                     "{{{key}}} is given, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
                      of adhesion with a range, or leave it out"
@@ -147,7 +143,7 @@ impl Adhesion {
         for parameter in Law::keys() {
             let key = parameter.name;
             let replaced = mapped && key == WORK;
-            let reason = match self.text_of(key) {
+            let reason = match text_of(key) {
                 None if law.needs.contains(&key) && !replaced => {
                     return Err(format!("{{law}} {name} lacks {{{key}}}: give it, {}", parameter.what()));
                 }

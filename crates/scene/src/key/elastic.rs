@@ -234,6 +234,11 @@ impl Elastic {
 
     /// The kind of the body, unless it is a half-space.
     fn kind(&self) -> Option<&'static BodyKind> {
+        let Self { boundary, modulus, against_modulus, .. } = *self;
+        // most bodies are half-spaces, which need no search for keys
+        if *self == (Self { boundary, modulus, against_modulus, ..Self::default() }) {
+            return None;
+        }
         self.own().find_map(|(given, _)| BODIES.iter().find(|kind| kind.key == given))
     }
 
