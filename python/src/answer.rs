@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity::Solution;
+use asperity::contact::ContactStatistics;
 use asperity_maps::Topography;
 use asperity_scene::{self as scene, Account, Answer, Outcome, Sight, Skin, rows, shortfalls};
 use numpy::ndarray::ArrayView2;
@@ -46,9 +47,11 @@ pub fn answer<'py, T: Scalar>(
     found.set_item("plastic_depth", depth)?;
     let fields = fields.map(Bound::unbind);
     let seen = Arc::new(Seen { seen: Mutex::new((sight, account)), threads, fields });
-    let of = seen.clone();
-    let look = PyCFunction::new_closure(py, None, None, move |given, _| of.look(given.py()));
+    let [looked, told] = [(); 2].map(|()| seen.clone());
+    let look = PyCFunction::new_closure(py, None, None, move |given, _| looked.look(given.py()));
     found.set_item("look", look?)?;
+    let tell = PyCFunction::new_closure(py, None, None, move |given, _| told.tell(given.py()));
+    found.set_item("tell", tell?)?;
     let displacements = PyCFunction::new_closure(py, None, None, move |given, _| seen.displacements(given.py()));
     found.set_item("displacements", displacements?)?;
     found.set_item("mode", mode.map(|mode| mode.into_pyarray(py)))?;
@@ -86,13 +89,22 @@ impl<T: Scalar> Seen<T> {
         py.detach(look).map_err(refusal)
     }
 
-    /// The statistics of the contact, the whole report, and the rows of the summary.
+    /// The statistics of the contact, and the whole account.
+    fn looked(&self, py: Python<'_>) -> PyResult<(ContactStatistics, Account)> {
+        self.at(py, |sight, account, fields| Ok((sight.look(account, fields)?, account.clone())))
+    }
+
+    /// The statistics of the contact, and the whole report.
     fn look(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let look = self.at(py, |sight, account, fields| Ok((sight.look(account, fields)?, account.clone())));
-        let (found, account) = look?;
+        let (found, account) = self.looked(py)?;
+        (to_pyobject(py, &found)?, reported(py, &account)?).into_py_any(py)
+    }
+
+    /// The rows of the summary.
+    fn tell(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
+        let (_, account) = self.looked(py)?;
         let rows = rows(&[&account], &account.inputs.units(), Skin::Keywords).into_iter();
-        let rows: Vec<_> = rows.map(|(name, texts)| (name, texts.concat())).collect();
-        (to_pyobject(py, &found)?, reported(py, &account)?, rows).into_py_any(py)
+        Ok(rows.map(|(name, texts)| (name, texts.concat())).collect())
     }
 
     /// The displacements of both bodies on all nodes that were solved, if both are elastic.

@@ -95,7 +95,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     if law is None and told["law"] != "none":
         law = told["law"]
     fields = {name: None if field is None else mirror_field(field, whole) for name, field in fields.items()}
-    solution = Solution(of, (_body(told), law), told, {**fields, "look": None, "displacements": None})
+    solution = Solution(of, (_body(told), law), told, {**fields, "look": None, "tell": None, "displacements": None})
     sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")
     apart = 1.0 - told["repulsive_fraction"] - told["attractive_fraction"]
     counted = {**told, "cluster_sizes": sizes, "apart_fraction": apart}
@@ -104,7 +104,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     rows = _asperity.figures_of(json.dumps(told))
     both: list[Any] = [fields[name] for name in ("displacement", "against_displacement")]
     parts = None if both[1] is None else tuple(map(solution.part_of, both))
-    solution.__dict__.update(_looked=(statistics, told, rows), _displacements=parts)
+    solution.__dict__.update(_looked=(statistics, told), _rows=rows, _displacements=parts)
     return solution
 
 

@@ -24,7 +24,6 @@ from .numbers import Numbers, Report
 if TYPE_CHECKING:
     from xarray import Dataset
 
-
 #: The fields of a folder that every solve leaves, and those that some do.
 FIELDS = ("gap", "pressure", "contact_pressure")
 OTHERS = ("plastic_depth", "mode", "displacement", "against_displacement", "heights")
@@ -97,7 +96,7 @@ class Solution(Numbers):
         for name in ("plastic_depth", "mode"):
             setattr(self, name, None if found[name] is None else self.part_of(found[name]))
         # the numbers of the report as they are, without what is found of the fields, and what finds that
-        self._told, self._look, self._displace = told, found["look"], found["displacements"]
+        self._told, self._look, self._tell, self._displace = told, found["look"], found["tell"], found["displacements"]
 
     def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
         """The part of a field on the whole map that the solution is of."""
@@ -111,15 +110,20 @@ class Solution(Numbers):
         return self._topography
 
     @cached_property
-    def _looked(self) -> tuple[ContactStatistics, Report, list[tuple[str, str]]]:
-        counted, report, rows = self._look()
+    def _looked(self) -> tuple[ContactStatistics, Report]:
+        counted, report = self._look()
         counted["cluster_sizes"] = np.array(counted["cluster_sizes"], np.int64)
-        return ContactStatistics(*(counted[name] for name in ContactStatistics._fields)), report, rows
+        return ContactStatistics(*(counted[name] for name in ContactStatistics._fields)), report
+
+    @cached_property
+    def _rows(self) -> list[tuple[str, str]]:
+        # in pickles of earlier versions they are with the look
+        return list(self._tell() if "_tell" in vars(self) else vars(self)["_looked"][-1])
 
     def __getstate__(self) -> dict[str, Any]:
         # a solution travels complete, and without its view of the memory of this process
-        complete = {"_looked": self._looked, "_displacements": self._displacements}
-        return {**self.__dict__, **complete, "_look": None, "_displace": None}
+        complete = {"_looked": self._looked, "_rows": self._rows, "_displacements": self._displacements}
+        return {**self.__dict__, **complete, "_look": None, "_tell": None, "_displace": None}
 
     @cached_property
     def contact(self) -> NDArray[np.bool_]:
@@ -327,13 +331,12 @@ class Solution(Numbers):
         return self.status == "converged"
 
     def __repr__(self) -> str:
-        rows = self._looked[2]
-        width = max(len(name) for name, _ in rows)
-        return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
+        width = max(len(name) for name, _ in self._rows)
+        return "\n".join(f"{name:<{width}}  {value}" for name, value in self._rows)
 
     def _repr_html_(self) -> str:
         contact = self.contact.reshape(self.contact.shape[0], -1)
-        return figures.html(self._looked[2], _asperity.contact_picture(contact, self.lengths, self._told["length_unit"]))
+        return figures.html(self._rows, _asperity.contact_picture(contact, self.lengths, self._told["length_unit"]))
 
     def plot(
         self,
