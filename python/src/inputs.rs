@@ -89,7 +89,7 @@ pub fn measured(key: &str, text: &str) -> PyResult<Quantity> {
 #[derive(FromPyObject)]
 pub struct Map<'py> {
     heights: Field<'py>,
-    lengths: Option<(f64, f64)>,
+    pub lengths: Option<(f64, f64)>,
     pub unit: Option<String>,
     /// The nodes of the original of a mirrored one
     original: Option<(usize, usize)>,

@@ -5,7 +5,7 @@ use asperity_scene::{
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyFloat};
 
 use crate::law::Law;
 use crate::refusal::reason;
@@ -23,6 +23,10 @@ pub fn read(lists: &[&'static [Key]], keywords: &Bound<'_, PyDict>) -> PyResult<
 
 /// The value of a keyword: a truth value, a text, a number, or several.
 fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Input> {
+    // at once what most values are: each of the other ways that fails makes an exception
+    if let Ok(value) = value.cast::<PyFloat>() {
+        return Ok(Input::Number(value.value()));
+    }
     if let Ok(value) = value.extract() {
         return Ok(Input::Switch(value));
     }

@@ -69,7 +69,9 @@ impl Problem {
 /// The unit of a reduced pressure, if one is among loads that the problem has.
 fn full_pressure(session: &AnySession, at: &At<'_>, loads: &[Load]) -> PyResult<f64> {
     let find = || either!(session = session => session.full_pressure(loads));
-    at.pool.install(at.py, find).map_err(refusal_of_session)
+    // a reduced pressure alone needs the slopes of the surface
+    let is_reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
+    if is_reduced { at.pool.install(at.py, find) } else { find() }.map_err(refusal_of_session)
 }
 
 #[pymethods]
@@ -93,25 +95,34 @@ impl Problem {
         let objects = Objects { law, symbol, has_hardness, numbers_are_si };
         let case = Case::new(given.clone(), quantities.clone(), objects, Skin::Keywords).map_err(refusal_of_session)?;
         let hardness = hardness.map(|hardness| hardness.to_array()).transpose()?;
-        let unit = map.unit.clone();
-        let changes = against.is_some() || quantities.is_si() && unit.as_deref().is_some_and(|unit| unit != LENGTH.si);
+        let (unit_of_map, lengths_of_map) = (map.unit.clone(), map.lengths);
+        let changes =
+            against.is_some() || quantities.is_si() && unit_of_map.as_deref().is_some_and(|unit| unit != LENGTH.si);
         let maps = Maps { facing, hardness, ..Maps::new(map.named()?) };
         let maps = Maps { against: against.map(Map::named).transpose()?, ..maps };
-        let pose = || case.on(maps, at.pool.threads(), &Processes::start()?);
-        let on_maps = at.pool.install(py, pose).map_err(refusal_of_session)?;
-        let surface = on_maps.surface.clone();
+        // at one go, as each way to the pool and back takes longer than many a check
+        let pose = || {
+            let processes = Processes::start()?;
+            let posed = case.on(maps, at.pool.threads(), &processes)?;
+            let (lengths, unit) = (posed.surface.grid().lengths(), posed.units.length.clone());
+            let heights = changes.then(|| Topography::from((*posed.surface).clone()).heights);
+            let (facing, theories) = (posed.inputs.against.clone(), Theories::check(&posed.surface, case.scene()));
+            Ok((AnySession::new(posed, &processes)?, (lengths, unit, heights), facing, theories))
+        };
+        let (session, (lengths, unit, heights), facing, theories) =
+            at.pool.install(py, pose).map_err(refusal_of_session)?;
         let posed = PyDict::new(py);
-        posed.set_item("lengths", surface.grid().lengths())?;
-        posed.set_item("unit", on_maps.units.length.clone().or(unit))?;
-        if changes {
-            posed.set_item("heights", Topography::from((*surface).clone()).heights.into_pyarray(py))?;
+        if lengths_of_map != Some(lengths) {
+            posed.set_item("lengths", lengths)?;
         }
-        let facing = on_maps.inputs.against.clone();
-        let beyond_theory = Theories::check(&surface, case.scene()).err().map(|reason| worded(&reason, Skin::Keywords));
-        drop(surface);
-        let make = || AnySession::new(on_maps, &Processes::start()?);
-        let session = Some(at.pool.install(py, make).map_err(refusal_of_session)?);
-        let (rows, posed) = (Mutex::new(None), posed.unbind());
+        if unit.is_some() && unit != unit_of_map {
+            posed.set_item("unit", unit)?;
+        }
+        if let Some(heights) = heights {
+            posed.set_item("heights", heights.into_pyarray(py))?;
+        }
+        let beyond_theory = theories.err().map(|reason| worded(&reason, Skin::Keywords));
+        let (session, rows, posed) = (Some(session), Mutex::new(None), posed.unbind());
         Ok(Self { session, is_kept, rows, case, beyond_theory, posed, facing })
     }
 

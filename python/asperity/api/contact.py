@@ -186,12 +186,13 @@ class Contact(Posed):
         given = read_heights(heights, axes)
         other = None if against is None else read_heights(against, None if knows_axes(against) else axes)
         self._posed = self._problem(given, self._given, is_kept, other)
-        self.topography = replace(given, **self._posed.posed)
+        changed = self._posed.posed
+        if "heights" not in changed and not isinstance(heights, Topography | str | PathLike):
+            # the array may change before the heights are asked for
+            changed = {**changed, "heights": given.heights.copy()}
+        self.topography = replace(given, **changed) if changed else given
         self._facing = self._posed.facing
         self.turns = Turns()
-        if not isinstance(heights, Topography | str | PathLike) and against is None:
-            # the array may change before the heights are asked for
-            self.topography = replace(self.topography, heights=self.topography.heights.copy())
         self.beyond_theory = self.problem.beyond_theory
         moduli = [self._given.numbers(key) for key in ("modulus", "against_modulus")]
         self.modulus = 1 / sum(1 / modulus[0] for modulus in moduli if modulus is not None)

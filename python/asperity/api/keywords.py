@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Iterable
 from itertools import groupby
@@ -14,6 +15,7 @@ from ..common.units import shown
 OF_LAWS = ("work_of_adhesion", "range", "exponent", "hamaker", "cut_off")
 
 
+@functools.cache
 def defaults(function: Callable[..., Any]) -> dict[str, Any]:
     """The keywords of a function with their defaults, without the axes of its heights."""
     own: Any = inspect.unwrap(function)
