@@ -114,24 +114,3 @@ fn springs_that_end_at_a_rigid_wall_seal_as_it_does() {
         }
     }
 }
-
-#[test]
-fn what_does_not_conduct_is_refused_by_name() {
-    let bench = Bench::new();
-    bench.said(ROUGH);
-    for (arguments, parts) in [
-        ("--resistivities 1Ohmm 2Ohmm", &["--resistivities needs --stiffness"][..]),
-        ("--stiffness --resistivities 0Ohmm 0Ohmm", &["--resistivities is 0, 0", "not both zero"]),
-        ("--stiffness --conductivities 0W/mK 1W/mK", &["--conductivities", "positive and finite"]),
-        (
-            "--stiffness --conductivities 1W/mK 1W/mK --resistivities 1Ohmm 2Ohmm",
-            &["--conductivities", "--resistivities"],
-        ),
-        ("--stiffness --resistivities 1Ohmm 2Ohmm --layer 1um --poisson 0.3", &["half-spaces", "--layer"]),
-        ("--stiffness --resistivities 1Ohmm 2Ohmm --wall penalty --wall-stiffness 1GPa/nm", &["hard wall", "--wall"]),
-        ("--stiffness --resistivities 1 2", &["--resistivities is 1 2, without a unit"]),
-        ("--stiffness --resistivities 1W/mK 2W/mK", &["a unit of something else", "17nOhm·m"]),
-    ] {
-        bench.refused_with(&format!("solve {PRESSED} --mean-pressure 4MPa --out out {arguments}"), parts);
-    }
-}

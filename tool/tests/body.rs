@@ -49,20 +49,3 @@ fn bodies_are_swept_cycled_and_kept_apart_in_tables() {
     let gaps = "--mean-gaps 0.03,0.02,0.03 --steps 4 --quiet --out cycle.csv";
     bench.said(&format!("cycle --heights heights.npy {law} {gaps} {COATED}"));
 }
-
-#[test]
-fn a_body_without_its_parameters_is_refused() {
-    let bench = rough();
-    for (arguments, parts) in [
-        ("--poisson 0.3", &["--poisson is 0.3", "half-space", "--modulus", "--layer", "--coating"][..]),
-        ("--coating 0.1 --poisson 0.3", &["--coating needs --coating-modulus"]),
-        ("--layer 0.1 --poisson 0.3 --coating-poisson 0.2", &["--coating-poisson is 0.2", "leave it out"]),
-        ("--coating 0.1 --coating-modulus 2 --coating-poisson 0.2 --poisson 0.3 --base bonded", &["--base is bonded"]),
-        ("--layer 0.1 --poisson 0.6", &["--poisson", "at most 0.5"]),
-        ("--layer=-1 --poisson 0.3", &["--layer"]),
-    ] {
-        bench.refused_with(&format!("{PRESSED} {arguments} --out none"), parts);
-    }
-    let told = bench.refused(&format!("{PRESSED} --base sliding --out none"));
-    assert!(told.contains("--base is sliding") && told.contains("or give --layer, a thickness"), "{told}");
-}
