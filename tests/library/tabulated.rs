@@ -127,6 +127,41 @@ fn functions_that_repel_keep_the_surfaces_apart() {
     assert_eq!(AdhesionLaw::<f64>::hints(&Tabulated::of(strict).unwrap()).rest, None);
 }
 
+/// Attraction by one power of the distance and repulsion by a higher one, at rest at a distance.
+fn powers([rest, high, low]: [f64; 3], shift: f64) -> impl Fn(f64) -> [f64; 3] + Sync {
+    move |gap| {
+        let term = |power: f64, order: f64| (rest / (gap + shift)).powf(power + order);
+        let sum = |order: f64, factor: f64| {
+            let of = |power: f64| (0..order as u32).fold(1.0, |product, k| product * (power + f64::from(k)) / rest);
+            W / (high - low) * factor * (low * of(high) * term(high, order) - high * of(low) * term(low, order))
+        };
+        [sum(0.0, 1.0), sum(1.0, -1.0), sum(2.0, 1.0)]
+    }
+}
+
+#[test]
+fn any_powers_are_a_law_with_the_gap_of_their_rest_in_any_unit() {
+    let r = RANGE;
+    for (given, shift) in [([r, 12.0, 6.0], 0.0), ([r, 3.0, 1.5], 0.0), ([r, 8.0, 2.0], r), ([3.7e-3, 5.0, 3.0], 0.0)] {
+        for unit in [1e-9, 1.0, 1e3] {
+            let of = powers([unit * given[0], given[1], given[2]], unit * shift);
+            let table = Tabulated::of(&of).unwrap();
+            let rest = AdhesionLaw::<f64>::hints(&table).rest.unwrap() / unit;
+            assert!((rest - (given[0] - shift)).abs() < 1e-9 * r, "{given:?} {shift} in {unit}: {rest}");
+            for gap in [0.9, 1.1, 3.0].map(|share| unit * (share * given[0] - shift)) {
+                let (found, expected) = (table.traction(gap), of(gap)[1]);
+                assert!((found / expected - 1.0).abs() < 1e-7, "{given:?} at {gap:e}: {found:e} {expected:e}");
+            }
+        }
+        let of = powers(given, shift);
+        for pressure in [1e-4, 0.01, 0.2] {
+            let solution = solved(Tabulated::of(&of).unwrap(), NoWall, Control::MeanPressure(pressure));
+            let traction = solution.gap.mapv(|gap| of(gap)[1]).mean().unwrap();
+            assert!((traction / -pressure - 1.0).abs() < 1e-4, "{given:?} under {pressure}: {traction:e}");
+        }
+    }
+}
+
 #[test]
 fn functions_that_are_no_law_are_refused_with_the_reason() {
     let law = Exponential::new(W, RANGE).unwrap();
@@ -145,6 +180,18 @@ fn functions_that_are_no_law_are_refused_with_the_reason() {
     assert!(matches!(breach(Tabulated::of(changed([-1.0, 1.0, 1.0]))), Breach::Sign(rise) if rise < 0.0));
     assert!(matches!(breach(Tabulated::of(changed([1.0, -1.0, -1.0]))), Breach::Sign(rise) if rise > 0.0));
     assert_eq!(breach(Tabulated::of(changed([-1.0; 3]))), Breach::Attract);
+    // and of laws whose gap of rest has to be found
+    for rest in [0.0, RANGE] {
+        let of = functions(Morse::new(W, RANGE).unwrap());
+        let changed = |signs: [f64; 3]| {
+            let of = &of;
+            move |gap: f64| std::array::from_fn(|n| signs[n] * of(gap - rest)[n])
+        };
+        for signs in [[-1.0, 1.0, 1.0], [1.0, -1.0, -1.0]] {
+            let found = Tabulated::of(changed(signs));
+            assert!(matches!(found, Err(Error::Contract { breach: Breach::Sign(_), .. })), "{signs:?}: {found:?}");
+        }
+    }
     let of = |gap: f64| [-1.0 / gap, gap.powi(-2), -2.0 * gap.powi(-3)];
     assert_eq!(breach(Tabulated::of(Named { of, range: RANGE, defined: |_| true })), Breach::Finite);
     let named = |range, defined| Named { of: functions(law), range, defined };
