@@ -26,9 +26,10 @@ def test_columns_are_a_table_of_pandas(rough, law):
     assert (table.status == "converged").all() and table.dtypes["iterations"] == np.int64
 
 
-def test_an_interrupted_sweep_goes_on_with_the_same_bits(rough):
+@pytest.mark.parametrize("given", [{}, {"hardness": 0.08}], ids=str)
+def test_an_interrupted_sweep_goes_on_with_the_same_bits(rough, given):
     loads = np.geomspace(0.002, 0.02, 4)
-    whole = asperity.sweep(rough, modulus=1.0, mean_pressures=loads).columns
+    whole = asperity.sweep(rough, modulus=1.0, mean_pressures=loads, **given).columns
     interrupted = []
 
     def observe(state):
@@ -36,7 +37,7 @@ def test_an_interrupted_sweep_goes_on_with_the_same_bits(rough):
             interrupted.append(state)
             raise KeyboardInterrupt
 
-    sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=loads, observe=observe)
+    sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=loads, observe=observe, **given)
     with pytest.raises(KeyboardInterrupt):
         sweep.run()
     assert len(sweep.rows) == 2
@@ -67,22 +68,7 @@ def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
         asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=3, imbalance=1.0).run()
 
 
-def test_a_cycle_without_a_range_has_its_limits():
-    tip = asperity.surface.paraboloid(32, 0.7, radius=2.0)
-    approaches = [-8e-3, 6e-3, -20e-3]
-    cycle = asperity.cycle(tip, modulus=1.0, law=asperity.JKR(5e-5), boundary="free", approaches=approaches)
-    limit = cycle.limit
-    assert [event["event"] for event in cycle.events] == ["touch", "pull-off"]
-    # the pull-off of JKR, over the area of the map
-    exact = 1.5 * np.pi * 5e-5 * 2.0 / 0.7**2
-    assert abs(limit.tension - exact) < limit.tension_error < 0.2 * exact
-    assert abs(limit.work - cycle.columns["work"][-1]) < 2 * limit.work_error
-    assert pickle.loads(pickle.dumps(cycle)).limit == limit
-    wave, law = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64), asperity.Exponential(1e-3, 8e-3)
-    assert asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.07], steps=1).limit is None
-
-
-def test_a_cycle_has_the_accuracy_that_is_asked_for(caplog):
+def test_a_cycle_without_a_range_has_its_limits_and_the_accuracy_that_is_asked_for(caplog):
     tip = asperity.surface.paraboloid(32, 0.7, radius=2.0)
     keys = {"modulus": 1.0, "law": asperity.JKR(5e-5), "boundary": "free", "approaches": [-8e-3, 6e-3, -20e-3]}
     with caplog.at_level(logging.INFO, "asperity"):
@@ -94,19 +80,12 @@ def test_a_cycle_has_the_accuracy_that_is_asked_for(caplog):
     assert limit.tension_error < 0.02 * limit.tension
     assert [level["shape"][0] for level in limit.levels] == [2**k for k in range(4, nodes.bit_length())]
     assert limit.levels[-1]["work"] == cycle.columns["work"][-1]
-    with pytest.raises(ValueError, match="known of the law jkr alone"):
-        asperity.cycle(tip, accuracy=0.1, **{**keys, "law": asperity.Exponential(5e-5, 1e-3)})
+    assert [event["event"] for event in cycle.events] == ["touch", "pull-off"]
+    assert pickle.loads(pickle.dumps(cycle)).limit == limit
     with pytest.raises(ValueError, match="an accuracy makes its own start"):
         asperity.cycle(tip, accuracy=0.1, start=np.full((32, 32), 0.1), **keys)
-
-
-def test_a_cycle_from_a_start_has_its_limits():
-    wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
-    keys = {"modulus": 1.0, "law": asperity.JKR(5e-5), "mean_gaps": [0.01, 0.08]}
-    pressed = asperity.solve(wave, 1.0, modulus=1.0, law=keys["law"], mean_gap=0.01)
-    from_start, from_afar = (asperity.cycle(wave, 1.0, start=start, **keys).limit for start in (pressed, None))
-    assert np.isclose(from_start.work, from_afar.work, rtol=1e-2)
-    assert [tuple(level["shape"]) for level in from_start.levels] == [(32, 1), (64, 1)]
+    wave, law = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64), asperity.Exponential(1e-3, 8e-3)
+    assert asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.07], steps=1).limit is None
 
 
 def test_loads_that_are_refused(rough):
@@ -126,7 +105,3 @@ def test_a_contact_that_jumps_past_the_fraction_is_told():
     with pytest.warns(asperity.ConvergenceWarning, match=r"25\.0 % contact: it jumps from 21\.9 % to 28\.1 %"):
         solution = asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=0.25)
     assert solution.converged and not solution.report["search"]["reached"]
-    with pytest.raises(ValueError, match="contact_fraction is 1.0: it must be a share"):
-        asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=1.0)
-    with pytest.raises(ValueError, match="nested"):
-        asperity.solve(ridge, (1.0, 0.5), modulus=1.0, contact_fraction=0.5, nested=True)

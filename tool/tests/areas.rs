@@ -13,12 +13,6 @@ fn press(law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
-/// The column of a comma-separated table.
-fn column(table: &str, name: &str) -> Vec<f64> {
-    let at = table.lines().next().unwrap().split(',').position(|column| column == name).unwrap();
-    table.lines().skip(1).map(|row| row.split(',').nth(at).unwrap().parse().unwrap()).collect()
-}
-
 #[test]
 fn from_a_seed_to_areas_the_tool_finds_what_the_library_finds() {
     let bench = Bench::new();
@@ -49,7 +43,6 @@ fn from_a_seed_to_areas_the_tool_finds_what_the_library_finds() {
     for (file, law) in [("bare.csv", ""), ("sticky.csv", law)] {
         said(&format!("sweep --heights rough.npy --mean-pressures 0.001,0.002,{LOAD} {law} --out {file}"));
     }
-    let [bare, sticky] = ["bare.csv", "sticky.csv"].map(|name| bench.read(name));
     let (mut solver, mut problem, mut sweep) = (Solver::default(), press(NoAdhesion), Sweep::default());
     let areas = loads.map(|load| {
         let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(load)).unwrap();
@@ -58,10 +51,10 @@ fn from_a_seed_to_areas_the_tool_finds_what_the_library_finds() {
     });
     for (i, name) in ["contact_fraction", "corrected_contact_fraction"].into_iter().enumerate() {
         let expected: Vec<f64> = areas.iter().map(|area| area[i]).collect();
-        assert_eq!(column(&bare, name), expected);
-        assert!(column(&sticky, name).iter().zip(expected).all(|(sticky, bare)| *sticky > bare));
+        assert_eq!(bench.column("bare.csv", name), expected);
+        assert!(bench.column("sticky.csv", name).iter().zip(expected).all(|(sticky, bare)| *sticky > bare));
     }
     // from the last load, not from full contact: the same state to what the tolerance leaves
-    let last = column(&sticky, "mean_gap")[2];
+    let last = bench.column("sticky.csv", "mean_gap")[2];
     assert!((last / single.mean_gap - 1.0).abs() < 1e-5, "{last} {}", single.mean_gap);
 }

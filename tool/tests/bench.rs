@@ -112,6 +112,22 @@ impl Bench {
         text(&self.bytes(name))
     }
 
+    /// The cells of a comma-separated table under a name, which may have a unit.
+    #[track_caller]
+    pub fn cells(&self, table: &str, name: &str) -> Vec<String> {
+        let text = self.read(table);
+        let mut rows = text.lines().map(|row| row.split(','));
+        let is_named = |column: &str| column.split(" [").next() == Some(name);
+        let at = rows.next().unwrap().position(is_named).unwrap_or_else(|| panic!("{table} has no {name}"));
+        rows.map(|mut row| row.nth(at).unwrap().to_owned()).collect()
+    }
+
+    /// The numbers of a comma-separated table under a name; NaN where a cell has none.
+    #[track_caller]
+    pub fn column(&self, table: &str, name: &str) -> Vec<f64> {
+        self.cells(table, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+    }
+
     /// The names of all files in a folder, hidden ones too.
     pub fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).unwrap();

@@ -173,12 +173,16 @@ fn at_once(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array2<
 
 #[test]
 fn a_course_goes_on_from_its_place_with_the_same_rows() {
+    let free = Scene { elastic: Elastic { boundary: Boundary::Free, ..Elastic::default() }, ..scene() };
     let gaps = [0.02, 0.01, 0.04].map(Control::MeanGap).to_vec();
-    let settings = PathSettings::default().steps(3);
-    for way in [Way::Sweep(gaps.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(gaps, settings)] {
-        let whole = at_once(&scene(), &way, stiff());
-        assert!(whole.len() >= 3);
-        assert_eq!(continued(&scene(), &way, stiff()), whole);
+    let approaches = [0.0, 0.01, -0.02].map(Control::Approach).to_vec();
+    for (scene, loads) in [(scene(), gaps), (free, approaches)] {
+        let settings = PathSettings::default().steps(3);
+        for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(loads, settings)] {
+            let whole = at_once(&scene, &way, stiff());
+            assert!(whole.len() >= 3);
+            assert_eq!(continued(&scene, &way, stiff()), whole, "{way:?}");
+        }
     }
 }
 
