@@ -24,8 +24,7 @@ def test_two_surfaces_are_the_one_between_them(pair):
     between = np.asarray(one) + np.asarray(other)[::-1]
     np.testing.assert_array_equal(both.heights, between)
     np.testing.assert_array_equal(both.gap, pressed(between, lengths=1.0).gap)
-    assert (both.report["against"], both.report["shift"], both.report["against_modulus"]) == ("array", [0, 0], None)
-    assert both.against_displacement is None
+    assert both.report["against"] == "array" and both.against_displacement is None
     moved = pressed(one, against=other, shift=(3 / 32, -1 / 32), against_modulus=2.0)
     rolled = np.roll(np.asarray(other)[::-1], (3, -1), (0, 1))
     np.testing.assert_array_equal(moved.heights, np.asarray(one) + rolled)

@@ -9,7 +9,6 @@ import sys
 import signal
 import threading
 import time
-import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -146,20 +145,12 @@ def test_the_interpreter_is_free_during_a_solve():
 
 
 @pytest.mark.filterwarnings("ignore:ends")
-def test_the_stability_of_a_solution_depends_on_what_holds_it(sphere, law):
+def test_the_stability_that_is_found_later_is_the_one_of_the_solve(sphere, law):
     options = {"modulus": 1.0, "mean_gap": 0.0398, "law": law}
     asked = asperity.solve(sphere, 1.0, stability=True, **options)
     found = asperity.stability(asperity.solve(sphere, 1.0, **options))
     assert {**found._asdict(), "mode": None} == {**asked.report["stability"], "mode": None}
     assert found.mode.tobytes() == asked.mode.tobytes()
-    # a sphere that is pulled comes off under a pressure before it does at a mean gap
-    for state in asperity.cycle(sphere, 1.0, modulus=1.0, law=law, mean_gaps=[0.0398, 0.06], steps=8):
-        under_pressure = asperity.stability(state.solution, mean_pressure=state.solution.mean_pressure).verdict
-        if under_pressure == "unstable":
-            assert asperity.stability(state.solution).verdict == "stable"
-            break
-    else:
-        raise AssertionError("no state that a pressure would not hold")
 
 
 def test_the_table_and_the_html_say_how_it_ended(rough, law):
@@ -208,20 +199,13 @@ def test_what_is_found_later_is_about_the_solve():
 
 
 def test_what_is_refused_says_why(rough):
-    heights = rough.heights
-    for arguments, message in [
+    for given, message in [
         ({"mean_gap": np.inf}, "mean_gap is inf"),
         ({"lengths": (1.0, -1.0)}, "lengths is -1.0: it must be a number, positive"),
-        ({"tolerance": 0.0}, "tolerance is 0"),
-        ({"threads": 0}, "threads is 0"),
-        ({"modulus": "stiff"}, "modulus is stiff: it must be a number"),
-        ({"lengths": "1 m"}, "modulus is 1.0, without a unit, but lengths 1 m has one"),
+        ({"mean_gap": [1.0, 2.0]}, "must be one value"),
     ]:
-        with warnings.catch_warnings(), pytest.raises(ValueError, match=message):
-            warnings.simplefilter("ignore")
-            asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
-    with pytest.raises(ValueError, match="must be one value"):
-        asperity.solve(heights, 1.0, modulus=1.0, mean_gap=[1.0, 2.0])
+        with pytest.raises(ValueError, match=message):
+            asperity.solve(**{"heights": rough.heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | given)
 
 
 @pytest.mark.parametrize("precision", ["f32", "f64"])

@@ -59,7 +59,7 @@ impl Reader {
             } else if word == "gap.npy" {
                 write_npy(self.folder.path().join(word), &Array2::from_elem((64, 64), height)).unwrap();
             } else if word.ends_with(".npy") {
-                let roughness = format!("--lengths {side}{unit} --k-l 2 --k-s 20 --rms-height {height}{unit}");
+                let roughness = format!("--lengths {side}{unit} --k-l 2 --k-s 12 --rms-height {height}{unit}");
                 let made = self.shell(&format!("asperity surface --size 64 {roughness} --force --quiet --out {word}"));
                 assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
             }

@@ -38,22 +38,8 @@ fn corpus() -> Vec<(String, Vec<u8>)> {
 }
 
 /// The replacements of numbers in headers.
-const NUMBERS: [&str; 14] = [
-    "0",
-    "1",
-    "-1",
-    "2",
-    "3L",
-    "255",
-    "65535",
-    "4294967295",
-    "9223372036854775807",
-    "18446744073709551616",
-    "1e999",
-    "nan",
-    "inf",
-    "-0.0",
-];
+const NUMBERS: &str = "0 1 -1 2 3L 255 65535 4294967295 9223372036854775807 18446744073709551616 1e999 nan inf \
+                       -0.0";
 
 /// The insertions into headers and texts.
 const PIECES: [&str; 33] = [
@@ -123,7 +109,8 @@ fn mutated(random: &mut ChaCha8Rng, corpus: &[(String, Vec<u8>)]) -> Vec<u8> {
                 // a number becomes another
                 if let Some(start) = (at..length).find(|&i| file[i].is_ascii_digit()) {
                     let end = (start..length).find(|&i| !file[i].is_ascii_digit()).unwrap_or(length);
-                    file.splice(start..end, NUMBERS[random.random_range(0..NUMBERS.len())].bytes());
+                    let numbers: Vec<_> = NUMBERS.split_whitespace().collect();
+                    file.splice(start..end, numbers[random.random_range(0..numbers.len())].bytes());
                 }
             }
             9 => {

@@ -92,12 +92,23 @@ fn keys(value: &Value, before: &str, found: &mut BTreeMap<String, BTreeSet<&'sta
 fn reports_keep_their_keys_and_the_kinds_of_their_values() {
     let (bench, promised) = (bench(), promised());
     let everywhere = &promised.reports["solve"].keys;
+    let page = concat!(
+        include_str!("../../docs/program/reports.md"),
+        include_str!("../../docs/program/numbers.md"),
+        include_str!("../../docs/program/keys.md")
+    );
     for (command, report) in &promised.reports {
         let mut found = BTreeMap::new();
         for arguments in &report.runs {
             let output = bench.run(&format!("{} --json", run(arguments)));
             assert_eq!(output.status.code(), Some(0), "{arguments}: {}", text(&output.stderr));
-            keys(&serde_json::from_slice(&output.stdout).unwrap(), "", &mut found);
+            let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert_eq!(report["command"].as_str(), arguments.split(' ').next(), "{arguments}");
+            keys(&report, "", &mut found);
+        }
+        let is_described = ["solve", "sweep", "cycle", "surface", "stats", "prepare"].contains(&&**command);
+        for name in found.keys().filter(|_| is_described).flat_map(|key| key.split('.')) {
+            assert!(page.contains(&format!("`{name}`")), "{command}: {name} is not documented");
         }
         for (expected, names) in &report.keys {
             for name in names.split_whitespace() {

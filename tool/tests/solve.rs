@@ -4,7 +4,7 @@ mod hertz;
 mod refusal;
 
 use std::fs::{self, File};
-use std::io::{BufReader, Cursor, Write};
+use std::io::BufReader;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
@@ -51,12 +51,6 @@ fn number(report: &Value, key: &str) -> f64 {
 #[track_caller]
 fn assert_close(value: f64, expected: f64, relative: f64) {
     assert!((value - expected).abs() <= relative * expected.abs(), "{value} is not {expected}");
-}
-
-/// Without adhesion a contact pressure is exactly zero wherever there is a gap, and the other way round.
-#[track_caller]
-fn assert_complementary(gap: &Array2<f64>, pressure: &Array2<f64>) {
-    assert!(gap.iter().zip(pressure).all(|(g, p)| *g >= 0.0 && *p >= 0.0 && g * p == 0.0));
 }
 
 #[test]
@@ -123,25 +117,6 @@ fn what_did_not_converge_is_written_and_said() {
 }
 
 #[test]
-#[cfg(feature = "parallel")]
-fn threads_do_not_change_a_bit() {
-    let bench = Bench::new();
-    let wavy = Surface::from_fn(Grid::square(150, 1.0).unwrap(), |x, y| 0.02 * (19.0 * x).sin() * (31.0 * y * x).cos());
-    write_npy(bench.path("heights.npy"), wavy.unwrap().heights()).unwrap();
-    let options = "--mean-pressure 0.02 --law exponential --work-of-adhesion 1e-4 --range 4e-3";
-    for threads in [1, 2, 3] {
-        let report = bench.solve(&format!("{options} --threads {threads}"), &format!("by-{threads}"), 0);
-        assert_eq!(report["threads"], threads);
-        for name in RESULTS.iter().filter(|name| !["report.json", "scene.toml"].contains(name)) {
-            assert!(
-                bench.bytes(&format!("by-{threads}/{name}")) == bench.bytes(&format!("by-1/{name}")),
-                "{threads}: {name}"
-            );
-        }
-    }
-}
-
-#[test]
 fn quiet_is_quiet_and_a_reader_that_left_does_no_harm() {
     let bench = paraboloid();
     let arguments = "solve --heights heights.npy --mean-gap 0.0398 --no-pictures --out";
@@ -164,7 +139,7 @@ fn quiet_is_quiet_and_a_reader_that_left_does_no_harm() {
 fn help_and_version() {
     let bench = Bench::new();
     for (arguments, parts) in [
-        ("--help", vec!["demo", "solve", "Examples"]),
+        ("--help", vec!["demo", "solve", "surface", "stats", "Examples"]),
         ("demo --help", vec!["--out", "asperity-demo"]),
         (
             "solve --help",
@@ -175,6 +150,13 @@ fn help_and_version() {
                 "Examples",
                 "--range 1nm",
             ],
+        ),
+        ("sweep --help", vec!["FROM:TO:COUNT:log", "--mean-gaps", ".csv or .jsonl", "Exits with 0", "Examples"]),
+        ("surface --help", vec!["--rms-slope", "k^(-2-2H)", "[default: 64]", "Examples", "--shape 4096 1"]),
+        ("stats --help", vec!["FILE", "--psd", "Examples", "[default: the file's]"]),
+        (
+            "prepare --help",
+            vec!["Only the steps that you choose are done", "--remove-form, --detrend, --fill, --window"],
         ),
         ("--version", vec![env!("CARGO_PKG_VERSION")]),
     ] {

@@ -21,13 +21,10 @@ fn bench() -> Bench {
     let mut strip = heights.clone();
     strip.row_mut(7).fill(-9999.0);
     write("strip.npy", &strip);
-    write("picometres.npy", &heights.mapv(|h| (1e6 * h).round()));
     write("metres.npy", &heights.mapv(|h| 1e-9 * h));
-    let mut infinite = heights.clone();
-    infinite[[3, 5]] = f64::NEG_INFINITY;
-    write("infinite.npy", &infinite);
-    infinite[[0, 0]] = f64::NAN;
-    write("both.npy", &infinite);
+    let mut both = heights.clone();
+    (both[[3, 5]], both[[0, 0]]) = (f64::NEG_INFINITY, f64::NAN);
+    write("both.npy", &both);
     for (name, side) in [("small.npz", 1.0), ("large.npz", 3.0)] {
         let mut map = Topography::new(heights.clone());
         map.lengths = Some((side, side));
@@ -54,12 +51,7 @@ fn said(stderr: &str) -> Vec<&str> {
 #[test]
 fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
     let bench = bench();
-    for (heights, expected) in [
-        ("clean.npy", &[][..]),
-        ("tilted.npy", &["tilt", "open-edges"]),
-        ("strip.npy", &["missing-code"]),
-        ("picometres.npy", &["steep"]),
-    ] {
+    for (heights, expected) in [("clean.npy", &[][..]), ("tilted.npy", &["tilt", "open-edges"])] {
         for (command, out) in [
             ("solve --mean-gap 1e5 --no-pictures", "results"),
             ("sweep --mean-gaps 2e5,1e5", "sweep.csv"),
@@ -81,38 +73,6 @@ fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
     // for people too
     let output = bench.run("solve --heights tilted.npy --mean-gap 1 --no-pictures --out people");
     assert_eq!(said(&text(&output.stderr)), ["tilt", "open-edges"]);
-    // nothing is gained by smaller fields
-    let output =
-        bench.run("solve --heights tilted.npy --mean-gap 1 --no-pictures --nested --precision f32 --out narrow");
-    assert_eq!(said(&text(&output.stderr)), ["tilt", "open-edges"]);
-}
-
-#[test]
-fn a_tip_in_a_periodic_cell_and_a_modulus_beside_metres_are_told() {
-    let bench = bench();
-    bench.said("surface --form sphere --radius 20nm --size 32 --lengths 16nm --quiet --out tip.npz");
-    bench.said("surface --form sphere --radius 7nm --size 32 --lengths 16nm --quiet --out whole.npz");
-    bench.said("surface --size 32 --k-l 2 --k-s 10 --rms-slope 0.1 --lengths 1um --quiet --out rough.npz");
-    let bare = "--modulus 2e9 --normal-force 1e-9";
-    for (arguments, expected) in [
-        (format!("--heights tip.npz {bare}"), &["ends"][..]),
-        (format!("--heights whole.npz --absent-missing {bare}"), &["ends"]),
-        (format!("--heights tip.npz --boundary free {bare}"), &[]),
-        (format!("--heights whole.npz --absent-missing --boundary free {bare}"), &[]),
-        ("--heights rough.npz --modulus 70 --mean-pressure 1".to_owned(), &["modulus"]),
-        ("--heights rough.npz --modulus 70 --pressure-unit GPa --mean-pressure 1".to_owned(), &[]),
-        ("--heights rough.npz --modulus 70Pa --mean-pressure 1Pa".to_owned(), &[]),
-        ("--heights rough.npz --modulus 70e9 --mean-pressure 1e9".to_owned(), &[]),
-        ("--heights rough.npz --mean-pressure 0.01".to_owned(), &[]),
-    ] {
-        let output = bench.run(&format!("solve {arguments} --no-pictures --force --out results"));
-        let stderr = text(&output.stderr);
-        let found: Vec<_> = said(&stderr).into_iter().filter(|code| ["ends", "modulus"].contains(code)).collect();
-        assert_eq!((output.status.code(), &found[..]), (Some(0), expected), "{arguments}: {stderr}");
-    }
-    let output = bench.run("solve --heights rough.npz --modulus 70 --mean-pressure 1 --strict --out strict");
-    let told = "modulus: the contact modulus is 70, below 1e3 Pa";
-    assert!(text(&output.stderr).contains(told), "{}", text(&output.stderr));
 }
 
 #[test]
@@ -168,13 +128,6 @@ fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
     );
     let report = bench.report("short");
     assert_eq!((codes(&report), &report["under_resolved"]), (vec!["range"], &Value::Bool(true)));
-    let output = bench.run(&format!("solve --heights clean.npy --mean-gap 0.03 {law} 2 --no-pictures --out long"));
-    assert!(
-        text(&output.stderr).contains("warning: range: the range of adhesion, 2, exceeds"),
-        "{}",
-        text(&output.stderr)
-    );
-    assert_eq!(codes(&bench.report("long")), ["range"]);
 }
 
 #[test]
@@ -189,9 +142,6 @@ fn warnings_have_the_units_of_tables() {
     // on the page, too
     bench.said("report long");
     assert!(bench.read("long/report.html").contains("<li>range: the range of adhesion, 2 m, exceeds"));
-    let output = bench.run("solve --heights clean.npy --lengths 1m --mean-pressure 5GPa --modulus 1GPa --out high");
-    let stderr = text(&output.stderr);
-    assert!(stderr.contains("beyond-modulus: the contact pressure is up to ") && stderr.contains(" GPa, "), "{stderr}");
     let output = bench.run(&format!(
         "solve --heights clean.npy --length-unit um --mean-gap 0.03 {} 2 --no-pictures --out plain",
         law.replace("kJ/m2", "")
@@ -301,16 +251,14 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     assert!(bench.read("range.csv.html").contains("case 2, the worst"));
     // and so do the rows of a sweep, in whatever order they come
     for pressures in ["5,9,6", "9,5,6", "5,6,9"] {
-        let output =
-            bench.run(&format!("sweep --heights clean.npy --mean-pressures {pressures} --out rows.csv --force --json"));
-        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
-        let message = report["warnings"][0]["message"].as_str().unwrap().to_owned();
-        assert_eq!(text(&output.stderr).lines().filter(|line| line.contains("beyond-modulus:")).count(), 1);
+        let sweep = format!("sweep --heights clean.npy --mean-pressures {pressures} --out rows.csv --force --json");
+        let report: Value = serde_json::from_slice(&bench.run(&sweep).stdout).unwrap();
+        let message = report["warnings"][0]["message"].as_str().unwrap();
         assert!(bench.read("rows.csv.warnings.txt").ends_with(&format!("]: {message}\n")));
-        let only = bench.run("sweep --heights clean.npy --mean-pressures 9 --out only.csv --force --json");
-        let only: Value = serde_json::from_slice(&only.stdout).unwrap();
+        let alone = bench.run("sweep --heights clean.npy --mean-pressures 9 --out only.csv --force --json");
+        let alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
         let figure = |text: &str| text.split(',').next().unwrap().to_owned();
-        assert_eq!(figure(&message), figure(only["warnings"][0]["message"].as_str().unwrap()), "{pressures}");
+        assert_eq!(figure(message), figure(alone["warnings"][0]["message"].as_str().unwrap()), "{pressures}");
     }
 }
 
@@ -344,28 +292,11 @@ fn prepare_looks_at_the_slope_that_its_lengths_make() {
         let output = bench.run(&format!("prepare metres.npy {options} --out out.npz --force --json"));
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
-        let found: Vec<_> = codes(&report).into_iter().map(str::to_owned).collect();
-        assert_eq!(said(&text(&output.stderr)), found);
-        found
+        codes(&report).into_iter().map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(prepare("--lengths 1 --unit nm"), ["smooth"]);
-    assert_eq!(prepare("--lengths 1e-18 --unit m"), ["steep"]);
     // with the step that mends it, or without lengths, there is nothing to say
-    assert_eq!(prepare("--lengths 1 --scale 1e9 --unit nm"), [""; 0]);
-    assert_eq!(prepare("--lengths 1nm"), [""; 0]);
-    assert_eq!(prepare(""), [""; 0]);
-}
-
-#[test]
-fn an_infinite_height_is_not_called_missing() {
-    let bench = bench();
-    for (name, count) in
-        [("infinite.npy", "1 of 32 x 32 heights are infinite"), ("both.npy", "1 of 32 x 32 heights are infinite")]
-    {
-        let refused = bench.refused(&format!("solve --heights {name} --mean-gap 1 --out results"));
-        assert!([count, "(-inf)", "[3, 5]"].iter().all(|part| refused.contains(part)), "{refused}");
-        assert!(!refused.contains("are missing") && !refused.contains("--absent-missing"), "{refused}");
-    }
+    assert_eq!([prepare("--lengths 1 --scale 1e9 --unit nm"), prepare("")], [Vec::<String>::new(), Vec::new()]);
     let said = bench.said("prepare both.npy --lengths 1 --fill --out filled.npz");
     assert!(said.contains("1 missing, 1 infinite") && said.contains("2 of 1024 points filled"), "{said}");
 }

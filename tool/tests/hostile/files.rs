@@ -57,6 +57,7 @@ fn a_full_disk_gives_one_line_and_leaves_no_file_of_a_solve_a_surface_or_a_map()
         "solve --heights heights.npy --mean-gap 0.0398 --no-pictures --quiet --format npz --out out",
         "solve --heights heights.npy --mean-gap 0.0398 --no-pictures --quiet --format vti --out out",
         "solve --heights heights.npy --mean-gap 0.0398 --quiet --out new/out",
+        "surface --size 128 --rms-slope 0.1 --k-s 32 --quiet --out rough.npy",
         "surface --size 64 --rms-slope 0.1 --k-s 16 --quiet --out rough.npy --psd psd.csv",
         "surface --size 64 --rms-slope 0.1 --k-s 16 --quiet --out rough.npz",
         "surface --size 64 --rms-slope 0.1 --k-s 16 --quiet --out new/rough.gsf",

@@ -102,7 +102,7 @@ fn nothing_is_written_below_a_file() {
         let output = run(bench.path(), &below("heights.npy", command));
         let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{command}: {error}");
-        assert!(error.contains("heights.npy"), "{command}: {error}");
+        assert!(error.contains("heights.npy") && error.contains("is not a folder"), "{command}: {error}");
         assert!(!names(bench.path()).iter().any(|name| name == "rough.npy"), "{command}");
     }
 }
