@@ -44,41 +44,25 @@ def test_a_map_that_is_not_periodic_is_a_warning_until_it_is_made_so(rough):
     gap(mirrored, None)
 
 
-class DataArray:
-    """An array with coordinates, like xarray's."""
-
-    def __init__(self, values, coords, attrs=None, units=None):
-        self.values, self.dims, self.attrs = values, tuple(coords), attrs or {}
-        self.coords = {name: Coordinate(values, units) for name, values in coords.items()}
-
-
-class Coordinate:
-    def __init__(self, values, units):
-        self.values, self.attrs = np.asarray(values), {"units": units} if units else {}
-
-
 def test_a_data_array_brings_its_coordinates(rough):
-    x = (np.arange(64) + 0.5) / 64
-    data = DataArray(rough.heights, {"x": x, "y": x}, {"units": "m"}, "m")
-    assert np.allclose(asperity.prepare(data).lengths, (1.0, 1.0), rtol=1e-14) and asperity.prepare(data).unit == "m"
-    falling = DataArray(rough.heights[::-1], {"x": x[::-1], "y": x})
-    assert np.array_equal(asperity.prepare(falling).heights, rough.heights)
-    with pytest.raises(ValueError, match="coordinate y is not equidistant"):
-        gap(DataArray(rough.heights, {"x": x, "y": x**2}), None)
-    with pytest.raises(ValueError, match=r"different units \(m, nm\)"):
-        gap(DataArray(rough.heights, {"x": x, "y": x}, {"units": "nm"}, "m"), None)
-
-
-def test_a_data_array_of_xarray_gives_the_same_bits(rough):
-    xarray = pytest.importorskip("xarray")
     x = np.arange(64) / 64
-    data = xarray.DataArray(rough.heights, dims=("x", "y"), coords={"x": x, "y": x}, attrs={"units": "m"})
-    assert gap(data, None).tobytes() == gap(rough.heights).tobytes()
-    assert asperity.prepare(data).unit == "m"
-    line = asperity.prepare(data.isel(y=3))
+
+    def data(y=x, unit="m"):
+        coords = {name: (name, values, {"units": "m"}) for name, values in (("x", x), ("y", y))}
+        return xarray.DataArray(rough.heights, coords, dims=("x", "y"), attrs={"units": unit})
+
+    assert gap(data(), None).tobytes() == gap(rough.heights).tobytes()
+    found = asperity.prepare(data())
+    assert found.lengths == (1.0, 1.0) and found.unit == "m"
+    assert np.array_equal(asperity.prepare(data()[::-1]).heights, rough.heights)
+    line = asperity.prepare(data().isel(y=3))
     assert line.shape == (64,) and line.lengths == (1.0, 1.0)
-    missing = data.where(data < data.max())
+    missing = data().where(data() < data().max())
     assert asperity.prepare(missing).missing == 1 and asperity.prepare(missing, fill=True).missing == 0
+    with pytest.raises(ValueError, match="coordinate y is not equidistant"):
+        gap(data(x**2), None)
+    with pytest.raises(ValueError, match=r"different units \(m, nm\)"):
+        gap(data(unit="nm"), None)
 
 
 def packed(values, kind="<f8", skip=4):
@@ -163,7 +147,6 @@ def test_axes_say_which_axis_is_x(rough):
 
 
 def test_dimensions_that_are_named_say_which_axis_is_x():
-    xarray = pytest.importorskip("xarray")
     x, y = np.arange(64) / 64, np.arange(48) / 64
     data = xarray.DataArray(OBLONG, dims=("x", "y"), coords={"x": x, "y": y})
     upright = gap(data, None)
