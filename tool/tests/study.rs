@@ -3,8 +3,6 @@
 mod interruption;
 
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
 
 use crate::bench::{Bench, text};
 

@@ -116,21 +116,6 @@ fn strict_takes_warnings_for_errors_and_writes_nothing() {
 }
 
 #[test]
-fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
-    let bench = bench();
-    let law = "--law exponential --work-of-adhesion 1e-4 --range";
-    let output = bench.run(&format!("solve --heights clean.npy --mean-gap 0.03 {law} 2e-3 --no-pictures --out short"));
-    let stderr = text(&output.stderr);
-    let lines: Vec<_> = stderr.lines().filter(|line| line.contains("mu_rho")).collect();
-    assert!(
-        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("makes w act as"),
-        "{stderr}"
-    );
-    let report = bench.report("short");
-    assert_eq!((codes(&report), &report["under_resolved"]), (vec!["range"], &Value::Bool(true)));
-}
-
-#[test]
 fn warnings_have_the_units_of_tables() {
     let bench = bench();
     let solve = "solve --heights clean.npy --lengths 1m --mean-gap 30mm --modulus 1GPa --no-pictures";

@@ -19,13 +19,6 @@ fn run(folder: &Path, command: &str) -> Output {
     output
 }
 
-/// The same with the first of some bytes in the place of others.
-fn patched(bytes: &[u8], old: &[u8], new: &[u8]) -> Vec<u8> {
-    assert_eq!(old.len(), new.len());
-    let at = bytes.windows(old.len()).position(|window| window == old).unwrap();
-    [&bytes[..at], new, &bytes[at + old.len()..]].concat()
-}
-
 /// A state as it would be written with another place.
 fn resealed(state: &[u8], place: &[u8]) -> Vec<u8> {
     let lines: Vec<_> = state.splitn(3, |&byte| byte == b'\n').collect();
@@ -33,8 +26,9 @@ fn resealed(state: &[u8], place: &[u8]) -> Vec<u8> {
     [Hash::NEW.extend(&rest).to_string().as_bytes(), b"\n", &rest].concat()
 }
 
+/// States that are not whole are tested in `asperity-scene`; these have the checksum of what they are.
 #[test]
-fn damaged_states_are_refused_and_the_table_is_kept() {
+fn states_of_something_else_are_refused_and_the_table_is_kept() {
     for command in [SWEEP, CYCLE] {
         let (bench, other) = (bench(16), bench(18));
         for bench in [&bench, &other] {
@@ -44,17 +38,7 @@ fn damaged_states_are_refused_and_the_table_is_kept() {
         let (whole, state) = (fs::read(&table).unwrap(), fs::read(&path).unwrap());
         let foreign = fs::read(other.path().join("table.csv.state")).unwrap();
         for (what, damaged) in [
-            ("empty", Vec::new()),
-            ("text", b"load,answer\n1,2\n".to_vec()),
-            ("half", state[..state.len() / 2].to_vec()),
-            ("without its last byte", state[..state.len() - 1].to_vec()),
             ("of another surface", foreign),
-            ("rows", patched(&state, b"\"rows\":", b"\"sows\":")),
-            ("a digit", [&state[..state.len() - 1], &[state[state.len() - 1] ^ 1]].concat()),
-            ("a byte of a gap", {
-                let middle = state.len() / 2;
-                [&state[..middle], &[state[middle] ^ 1], &state[middle + 1..]].concat()
-            }),
             ("a huge array", resealed(&state, &[0xff; 9])),
             ("nothing", resealed(&state, &[])),
         ] {

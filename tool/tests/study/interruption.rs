@@ -43,37 +43,6 @@ fn slices_jobs_and_interruptions_come_to_the_same_table() {
 }
 
 #[test]
-fn a_study_that_is_killed_goes_on() {
-    let long = MADE.replace(":3:log", ":4000:log");
-    let bench = Bench::new();
-    bench.write("study.toml", &long);
-    let mut study = Command::new(env!("CARGO_BIN_EXE_asperity"))
-        .current_dir(bench.path("."))
-        .args(["study", "study.toml", "--jobs", "1", "--quiet"])
-        .stdin(Stdio::null())
-        .spawn()
-        .unwrap();
-    let cases = bench.path("study.csv.cases");
-    let rows = || {
-        let files = std::fs::read_dir(&cases).into_iter().flatten().flatten().map(|entry| entry.path());
-        let tables = files.filter(|path| path.extension().is_some_and(|extension| extension == "csv"));
-        tables.map(|path| std::fs::read_to_string(path).map_or(0, |table| table.lines().count())).sum::<usize>()
-    };
-    while rows() < 3 && study.try_wait().unwrap().is_none() {
-        sleep(Duration::from_millis(5));
-    }
-    assert_eq!(study.try_wait().unwrap(), None, "too fast for this test");
-    study.kill().unwrap();
-    study.wait().unwrap();
-    assert!(!bench.path("study.csv").exists());
-    // the shorter study begins with other cases; the long one is still to do, and not lost
-    assert!(bench.said("study study.toml --list").contains("0 of 4 cases are done"));
-    bench.write("short.toml", &MADE.replace("study.csv", "short.csv"));
-    bench.said("study short.toml --quiet");
-    assert_eq!(bench.read("short.csv").lines().count(), 13);
-}
-
-#[test]
 fn damaged_cases_are_solved_again() {
     let bench = Bench::new();
     // steep, for warnings
