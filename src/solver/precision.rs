@@ -27,11 +27,12 @@ pub(crate) fn in_double(operator: &mut dyn ElasticOperator<f64>, job: Job<'_, f6
 }
 
 /// Whether corrections in `f32` will do: they miss the first contact under a light load, and on a flat surface, where
-/// every load is light, each step leaves more rounding than pressure. The slopes of a law that keeps the surfaces apart by
-/// itself multiply their rounding.
+/// every pressure is light, each step leaves more rounding than pressure. The slopes of a law that keeps the surfaces
+/// apart by itself multiply their rounding.
 fn takes_coarse_corrections<T: Real>(job: &Job<'_, T>) -> bool {
-    let (flat, wall) = (job.flat, job.constraint.wall());
-    let light = LIGHT * flat.rms_pressure();
-    let is_light = matches!(flat.load(job.control, wall), Ok(Load::Pressure(pressure)) if pressure.abs() < light);
-    job.settings.method == Method::Preconditioned && light > 0.0 && !is_light && wall.keeps_apart()
+    let (wall, light) = (job.constraint.wall(), LIGHT * job.flat.rms_pressure());
+    let is_light = |pressure: f64| light == 0.0 || pressure.abs() < light;
+    let is_lightly_loaded =
+        matches!(job.flat.load(job.control, wall), Ok(Load::Pressure(pressure)) if is_light(pressure));
+    job.settings.method == Method::Preconditioned && !is_lightly_loaded && wall.keeps_apart()
 }

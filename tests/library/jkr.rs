@@ -235,7 +235,8 @@ fn pillars_that_repeat_have_a_limit_of_their_pull_off() {
     let limits = [deep, surface_with_absent(grid, heights).unwrap()].map(|surface| {
         let half_space = Westergaard::new(grid, 1.0).unwrap();
         let mut problem = Problem::new(&surface, half_space, Jkr::new(1e-4).unwrap()).unwrap();
-        find(&mut problem, 3e-3).limit().unwrap().unwrap()
+        // the area changes by a percent in the last thousandths of the tension
+        find(&mut problem, 3e-4).limit().unwrap().unwrap()
     });
     assert!((limits[0] / limits[1] - 1.0).abs() < 0.01, "{limits:?}");
 }
