@@ -1,10 +1,7 @@
 //! A bracket: the tensions that surfaces bear, and the least tension that they do not.
 
-use crate::degrees::{HARDLY, PARTLY};
+use crate::degrees::{HALF, HARDLY, PARTLY};
 use crate::solver::Report;
-
-/// The largest next step of the tension over the last step, as long as no tension is too large.
-const GROWTH: f64 = 1.5;
 
 /// The share of a bracket below a tension that is tried without a peak: a state that holds costs less than surfaces that come
 /// apart.
@@ -75,9 +72,11 @@ impl Bracket {
         // the farthest tension with a loss that ends the search
         let last = low / (1.0 - (1.0 - HARDLY) * tolerance);
         let near = self.peak().map(|peak| if peak <= last { last } else { peak * (1.0 - 0.25 * tolerance) }.max(last));
+        // as long as no tension is too large, each step is at most half as long again as the step before
         let Some(lost) = self.lost else {
             let before = self.borne.iter().rev().nth(1).map_or(0.0, |place| place.tension);
-            let farthest = (low + GROWTH * (low - before)).max(last);
+            let step = low - before;
+            let farthest = (low + step + HALF * step).max(last);
             return if low > 0.0 { near.unwrap_or(f64::INFINITY).min(farthest) } else { first };
         };
         if lost <= last {
@@ -98,7 +97,7 @@ impl Bracket {
         let beyond = match self.lost {
             None if low < least => least,
             None if low < most => most,
-            None => (2.0 * low - least).min((1.0 + GROWTH) * low),
+            None => (2.0 * low - least).min(2.0 * low + HALF * low),
             Some(lost) => 2.0 * lost - most,
         };
         let is_beyond = self.lost.is_none_or(|lost| lost <= least);

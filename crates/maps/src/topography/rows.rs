@@ -160,7 +160,8 @@ impl<'a> LineSteps<'a> {
     }
 }
 
-/// The lines from which steps are taken at once: the numbers of a cache line, in which lines across the rows of a map lie side by side.
+/// The lines from which steps are taken at once: the numbers of a cache line, in which lines across the rows of a map lie
+/// side by side.
 const AT_ONCE: usize = 8;
 
 /// Does something with the steps of all nodes from each line to the next.
