@@ -1,7 +1,8 @@
 //! Degrees: how little is hardly any, how near is near enough, and how much is far, where the order alone counts.
 
 /// A share that is hardly any: of the pressure that presses the surface flat, of a tension that is held without contact,
-/// of the largest traction at the edge of a window, of a work that rounding may take, of the softest stiffness.
+/// of the largest traction at the edge of a window, of a work that rounding may take, of the softest stiffness, of a
+/// tolerance that rounding may exceed.
 pub(crate) const HARDLY: f64 = 1e-3;
 
 /// A share that is little: the least that counts of a curvature, of a step or of a stiffness, the error of a first state,
@@ -12,14 +13,15 @@ pub(crate) const LITTLE: f64 = 1e-2;
 /// next state may leave, of the change that a mode makes up.
 pub(crate) const PARTLY: f64 = 0.1;
 
-/// A share that is about a half: of the nodes of a grid, of a gap that a step may take, of a load that is not borne, of the
-/// change before in the error of a prediction, of a tolerance, of the work that a law has left at its strongest traction.
+/// A share that is about a half: of the nodes of a grid, of a gap that a step may take, of a load that is not borne, of a step
+/// that the next step may exceed, of the change before in the error of a prediction, of a tolerance, of the work that a law has left at its strongest traction.
 pub(crate) const HALF: f64 = 0.5;
 
 /// A share that is most, and not all: of a jump that half a step has, of a step that the next one takes along.
 pub(crate) const MOSTLY: f64 = 0.7;
 
-/// A factor that leaves room: over the floor of rounding, a tolerance, the rise of concave functions, the last step.
+/// A factor that leaves room: over the floor of rounding, a tolerance, the rise of concave functions, the last step, a
+/// step to a peak that was too low.
 pub(crate) const TWICE: f64 = 2.0;
 
 /// A first step into the unknown, as a share of the way that is known.

@@ -29,13 +29,15 @@ once! {
 /// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
 ///
 /// The tension grows, each solve from the gap under the greatest tension borne, until the surfaces come apart
-/// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is
-/// `tolerance` wide. A loss counts only from a state within the tolerance of the lost tension: from a farther state
-/// it may be a jump that shorter steps avoid, and is tried again from a closer state. Contacts that are lost on the
-/// way are lost under the load, as on a soft spring. Before, the surfaces are pressed flat, as on the branch of
-/// unloading ([`Branch`]), or to a `preload`. On the branch of unloading the pull-off is the largest tension with
-/// an equilibrium, if the traction of the law falls with the gap. Where the pull-off is expected between two
-/// tensions, the search begins there. The last solve has the tolerance of the solver, solves before it are rough.
+/// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is `tolerance`
+/// wide. A loss counts only from a state within the tolerance of the lost tension: from a farther state it may be a
+/// jump that shorter steps avoid, and is tried again from a closer state. Contacts that are lost on the way are lost
+/// under the load, as on a soft spring. A loss takes many times the iterations of a state that holds: a tension above
+/// the peak of a parabola through the last states is tried only where its loss ends the search. Before, the surfaces
+/// are pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On the branch of unloading the
+/// pull-off is the largest tension with an equilibrium, if the traction of the law falls with the gap. Where the
+/// pull-off is expected between two tensions, the search begins there. The last solve has the tolerance of the solver,
+/// solves before it are rough.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|

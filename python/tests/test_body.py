@@ -31,6 +31,21 @@ def test_sweeps_cycles_and_stability_have_bodies(rough):
     assert again.eigenvalue == pytest.approx(held.report["stability"]["eigenvalue"], rel=1e-6)
 
 
+BODIES = [asperity.Layer(0.1, 0.3), asperity.Layer(0.1, 0.3, base="sliding"), COATING, asperity.Symbol(lambda q: 1 + 0.5 * q)]
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_all_walls_stand_before_all_bodies(rough, body):
+    walls = ["hard", asperity.Penalty(1000.0), asperity.Uzawa(1000.0)]
+    hard, springs, rounds = (pressed(rough, body=body, wall=wall) for wall in walls)
+    assert hard.converged and springs.converged and rounds.converged
+    assert springs.report["min_gap"] == pytest.approx(-springs.contact_pressure.max() / 1000.0, rel=1e-9)
+    # both to a certified 1e-6 in the energy norm
+    np.testing.assert_allclose(rounds.gap, hard.gap, atol=1e-5 * hard.gap.max())
+    swept = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.02], body=body, wall=walls[1])
+    assert swept.columns["contact_fraction"][0] == springs.contact_fraction
+
+
 def test_numbers_have_units_or_none(rough):
     in_metres = asperity.prepare(rough, unit="um")
     body = asperity.Coating("100nm", modulus="350GPa", poisson=0.2, substrate_poisson=0.3)

@@ -1,6 +1,6 @@
 //! A bracket: the tensions that surfaces bear, and the least tension that they do not.
 
-use crate::degrees::{HALF, HARDLY, PARTLY};
+use crate::degrees::{HALF, HARDLY, PARTLY, TWICE};
 use crate::solver::Report;
 
 /// The share of a bracket below a tension that is tried without a peak: a state that holds costs less than surfaces that come
@@ -71,13 +71,14 @@ impl Bracket {
         let low = self.greatest();
         // the farthest tension with a loss that ends the search
         let last = low / (1.0 - (1.0 - HARDLY) * tolerance);
-        let near = self.peak().map(|peak| if peak <= last { last } else { peak * (1.0 - 0.25 * tolerance) }.max(last));
+        let near = peak(&self.borne);
+        let near = near.map(|peak| if peak <= last { last } else { peak * (1.0 - 0.25 * tolerance) }.max(last));
         // as long as no tension is too large, each step is at most half as long again as the step before
         let Some(lost) = self.lost else {
             let before = self.borne.iter().rev().nth(1).map_or(0.0, |place| place.tension);
-            let step = low - before;
-            let farthest = (low + step + HALF * step).max(last);
-            return if low > 0.0 { near.unwrap_or(f64::INFINITY).min(farthest) } else { first };
+            let (step, least) = (low - before, low + (last - low) * TWICE.powi(self.raised_peaks(tolerance)));
+            let farthest = (low + step + HALF * step).max(least);
+            return if low > 0.0 { near.map_or(farthest, |near| near.max(least).min(farthest)) } else { first };
         };
         if lost <= last {
             // lost from farther off
@@ -104,18 +105,28 @@ impl Bracket {
         (is_beyond && beyond > low).then_some(beyond)
     }
 
-    /// The largest tension of the parabola over the distance through the last three places, if the bodies go apart from
-    /// place to place, and it has one.
-    fn peak(&self) -> Option<f64> {
-        let [.., a, b, c] = self.borne[..] else { return None };
-        if !(a.distance < b.distance && b.distance < c.distance) {
-            return None;
-        }
-        let slope = |from: Held, to: Held| (to.tension - from.tension) / (to.distance - from.distance);
-        let bend = (slope(b, c) - slope(a, b)) / (c.distance - a.distance);
-        let there = slope(b, c) + bend * (c.distance - b.distance);
-        Some(c.tension - there * there / (4.0 * bend)).filter(|peak| bend < 0.0 && peak.is_finite())
+    /// How many times, one after the other, the last places have raised the peak by more than the tolerance: a curve that
+    /// bends otherwise than a parabola has its peak ever farther off.
+    fn raised_peaks(&self, tolerance: f64) -> i32 {
+        let is_raised = |&last: &usize| {
+            let [before, then] = [last - 1, last].map(|last| peak(&self.borne[..=last]));
+            before.zip(then).is_some_and(|(before, then)| then > before * (1.0 + tolerance))
+        };
+        (1..self.borne.len()).rev().take_while(is_raised).count() as i32
     }
+}
+
+/// The largest tension of the parabola over the distance through the last three places, if the bodies go apart from
+/// place to place, and it has one.
+fn peak(borne: &[Held]) -> Option<f64> {
+    let [.., a, b, c] = borne[..] else { return None };
+    if !(a.distance < b.distance && b.distance < c.distance) {
+        return None;
+    }
+    let slope = |from: Held, to: Held| (to.tension - from.tension) / (to.distance - from.distance);
+    let bend = (slope(b, c) - slope(a, b)) / (c.distance - a.distance);
+    let there = slope(b, c) + bend * (c.distance - b.distance);
+    Some(c.tension - there * there / (4.0 * bend)).filter(|peak| bend < 0.0 && peak.is_finite())
 }
 
 #[cfg(test)]
@@ -127,7 +138,7 @@ mod tests {
         let curve = |x: f64| 3.0 - (x - 2.0).powi(2);
         let places = [0.3, 0.8, 1.1].map(|distance| Held { distance, tension: curve(distance) });
         let mut bracket = Bracket { borne: places.to_vec(), ..Bracket::default() };
-        assert!((bracket.peak().unwrap() - 3.0).abs() < 1e-12);
+        assert!((peak(&bracket.borne).unwrap() - 3.0).abs() < 1e-12);
         let mut tries = 0;
         while !bracket.is_narrow(0.02) {
             let tension = bracket.next(0.1, 0.02);
@@ -153,6 +164,21 @@ mod tests {
             tries += 1;
         }
         assert!(tries < 40 && bracket.greatest() <= 0.7 && bracket.lost > Some(0.7), "{tries}: {bracket:?}");
+    }
+
+    #[test]
+    fn a_curve_that_no_parabola_follows_is_enclosed() {
+        let mut bracket = Bracket { borne: vec![Held { distance: 0.0, tension: 0.0 }], ..Bracket::default() };
+        let mut tries = 0;
+        while !bracket.is_narrow(0.02) {
+            let tension = bracket.next(1e-4, 0.02);
+            match tension <= 1.0 {
+                true => bracket.bear(Held { distance: tension.powi(3), tension }),
+                false => bracket.lose(tension),
+            }
+            tries += 1;
+        }
+        assert!(tries < 60 && bracket.lost > Some(1.0), "{tries}: {bracket:?}");
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The law of an interface, end to end.
 
+use serde_json::Value;
+
 use crate::bench::{Bench, text};
 
 const ROUGH: &str = "surface --size 64 --lengths 20um --k-l 2 --k-s 8 --rms-height 0.1um --quiet --out heights.npz";
@@ -9,6 +11,41 @@ const PRESSED: &str = "interface --heights heights.npz --modulus 1GPa";
 fn numbers(text: &str, between: char, comment: char) -> Vec<Vec<f64>> {
     let lines = text.lines().filter(|line| !line.starts_with(comment));
     lines.map(|line| line.split(between).map(|cell| cell.trim().parse().unwrap()).collect()).collect()
+}
+
+/// The rows of the table by the names of its columns without their units.
+fn rows(bench: &Bench, file: &str) -> Vec<Value> {
+    let text = bench.read(file);
+    let mut lines = text.lines();
+    let names: Vec<_> = lines.next().unwrap().split(',').map(|name| name.split(' ').next().unwrap()).collect();
+    lines.map(|line| asperity_scene::csv::parsed(&names, line)).collect()
+}
+
+fn column(rows: &[Value], name: &str) -> Vec<f64> {
+    rows.iter().map(|row| row[name].as_f64().unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn the_slope_of_the_pressure_is_the_stiffness_to_its_error() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    // two loads so near each other that the stiffness is the same but for what its error says
+    bench.said(&format!("{PRESSED} --mean-pressures 2MPa,2.02MPa,8MPa,8.08MPa --tolerance 1e-9 --quiet --out law.csv"));
+    let rows = rows(&bench, "law.csv");
+    let [pressure, closure, gap, stiffness, error] =
+        ["mean_pressure", "closure", "mean_gap", "contact_stiffness", "stiffness_error"]
+            .map(|name| column(&rows, name));
+    for k in [0, 2] {
+        let slope = (pressure[k + 1] - pressure[k]) / (closure[k + 1] - closure[k]);
+        let (mean, allowed) = (0.5 * (stiffness[k] + stiffness[k + 1]), error[k].max(error[k + 1]));
+        assert!(allowed < 0.05 && (slope / mean - 1.0).abs() < allowed, "{slope} {mean} {allowed}");
+        // the closure is the fall of the mean gap from first touch
+        assert!((closure[k + 1] - closure[k] + gap[k + 1] - gap[k]).abs() < 1e-9 * gap[k]);
+    }
+    let stats = bench.reported("stats heights.npz");
+    let touch = stats["highest"].as_f64().unwrap() - stats["mean_height"].as_f64().unwrap();
+    assert!((gap[0] + closure[0] - touch).abs() < 1e-9 * touch);
+    assert!(rows.iter().all(|row| row["status"] == "converged" && row["branch"].is_null()));
 }
 
 /// Absent nodes are left out of the mean gap, and the displacement has a mean over the others.

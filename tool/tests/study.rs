@@ -202,7 +202,7 @@ fn a_study_of_pull_offs_has_the_keys_of_their_reports() {
     // a search that has not come to its end is counted, and says so
     bench.write(
         "short.toml",
-        &study.replace("study.csv", "short.csv").replace("rtol = 0.1", "rtol = 0.1\n[solver]\nmax-iterations = 8"),
+        &study.replace("study.csv", "short.csv").replace("rtol = 0.1", "rtol = 0.1\n[solver]\nmax-iterations = 3"),
     );
     let output = bench.run("study short.toml --quiet");
     let said = text(&output.stderr);

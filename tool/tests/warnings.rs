@@ -76,6 +76,34 @@ fn each_command_says_what_is_probably_a_mistake_and_reports_it() {
 }
 
 #[test]
+fn a_tip_in_a_periodic_cell_and_a_modulus_beside_metres_are_told() {
+    let bench = bench();
+    bench.said("surface --form sphere --radius 20nm --size 32 --lengths 16nm --quiet --out tip.npz");
+    bench.said("surface --form sphere --radius 7nm --size 32 --lengths 16nm --quiet --out whole.npz");
+    bench.said("surface --size 32 --k-l 2 --k-s 10 --rms-slope 0.1 --lengths 1um --quiet --out rough.npz");
+    let bare = "--modulus 2e9 --normal-force 1e-9";
+    for (arguments, expected) in [
+        (format!("--heights tip.npz {bare}"), &["ends"][..]),
+        (format!("--heights whole.npz --absent-missing {bare}"), &["ends"]),
+        (format!("--heights tip.npz --boundary free {bare}"), &[]),
+        (format!("--heights whole.npz --absent-missing --boundary free {bare}"), &[]),
+        ("--heights rough.npz --modulus 70 --mean-pressure 1".to_owned(), &["modulus"]),
+        ("--heights rough.npz --modulus 70 --pressure-unit GPa --mean-pressure 1".to_owned(), &[]),
+        ("--heights rough.npz --modulus 70Pa --mean-pressure 1Pa".to_owned(), &[]),
+        ("--heights rough.npz --modulus 70e9 --mean-pressure 1e9".to_owned(), &[]),
+        ("--heights rough.npz --mean-pressure 0.01".to_owned(), &[]),
+    ] {
+        let output = bench.run(&format!("solve {arguments} --no-pictures --force --out results"));
+        let stderr = text(&output.stderr);
+        let found: Vec<_> = said(&stderr).into_iter().filter(|code| ["ends", "modulus"].contains(code)).collect();
+        assert_eq!((output.status.code(), &found[..]), (Some(0), expected), "{arguments}: {stderr}");
+    }
+    let output = bench.run("solve --heights rough.npz --modulus 70 --mean-pressure 1 --strict --out strict");
+    let told = "modulus: the contact modulus is 70, below 1e3 Pa";
+    assert!(text(&output.stderr).contains(told), "{}", text(&output.stderr));
+}
+
+#[test]
 fn strict_takes_warnings_for_errors_and_writes_nothing() {
     let bench = bench();
     let before = bench.names(".");
@@ -113,6 +141,28 @@ fn strict_takes_warnings_for_errors_and_writes_nothing() {
     bench.said("solve --heights clean.npy --mean-pressure 0.01 --no-pictures --out fine --strict");
     assert_eq!(codes(&bench.report("fine")), [""; 0]);
     assert!(bench.read("fine/scene.toml").contains("strict = true"));
+}
+
+#[test]
+fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
+    let bench = bench();
+    let law = "--law exponential --work-of-adhesion 1e-4 --range";
+    let output = bench.run(&format!("solve --heights clean.npy --mean-gap 0.03 {law} 2e-3 --no-pictures --out short"));
+    let stderr = text(&output.stderr);
+    let lines: Vec<_> = stderr.lines().filter(|line| line.contains("mu_rho")).collect();
+    assert!(
+        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("makes w act as"),
+        "{stderr}"
+    );
+    let report = bench.report("short");
+    assert_eq!((codes(&report), &report["under_resolved"]), (vec!["range"], &Value::Bool(true)));
+    let output = bench.run(&format!("solve --heights clean.npy --mean-gap 0.03 {law} 2 --no-pictures --out long"));
+    assert!(
+        text(&output.stderr).contains("warning: range: the range of adhesion, 2, exceeds"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(codes(&bench.report("long")), ["range"]);
 }
 
 #[test]

@@ -117,8 +117,7 @@ class Solution(Numbers):
 
     @cached_property
     def _rows(self) -> list[tuple[str, str]]:
-        # in pickles of earlier versions they are with the look
-        return list(self._tell() if "_tell" in vars(self) else vars(self)["_looked"][-1])
+        return list(self._tell())
 
     def __getstate__(self) -> dict[str, Any]:
         # a solution travels complete, and without its view of the memory of this process

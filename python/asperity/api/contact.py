@@ -186,10 +186,9 @@ class Contact(Posed):
         given = read_heights(heights, axes)
         other = None if against is None else read_heights(against, None if knows_axes(against) else axes)
         self._posed = self._problem(given, self._given, is_kept, other)
-        changed = self._posed.posed
-        if "heights" not in changed and not isinstance(heights, Topography | str | PathLike):
-            # the array may change before the heights are asked for
-            changed = {**changed, "heights": given.heights.copy()}
+        # an array may change before the heights are asked for
+        own = {} if isinstance(heights, Topography | str | PathLike) else {"heights": given.heights.copy()}
+        changed = {**own, **self._posed.posed}
         self.topography = replace(given, **changed) if changed else given
         self._facing = self._posed.facing
         self.turns = Turns()

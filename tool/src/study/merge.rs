@@ -55,7 +55,12 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
 fn columns(study: &Study) -> Outcome<Vec<String>> {
     let mut columns: Vec<String> = Vec::new();
     for Case { rows, .. } in &study.cases {
-        for name in study.format.parts(&read(rows)?).0 {
+        let text = read(rows)?;
+        let (names, _) = study.format.parts(&text);
+        if names.is_empty() && !text.is_empty() {
+            return Err(Error::file(rows, "has no columns in its first line: remove the file").into());
+        }
+        for name in names {
             match columns.iter().find(|column| bare(column) == bare(&name)) {
                 Some(column) if *column != name => {
                     let reason =

@@ -79,7 +79,7 @@ impl<T: Real> Judge<'_, T> {
         let moving = self.free();
         let right = moving.iter().map(|&i| residual[i]).chain([0.0]).collect();
         let hessian = self.dense.hessian(&moving, Held::Shift(0.0), &vec![0.0; residual.len()], 0.0);
-        let step = oracles::dense::eliminate(hessian, right).unwrap_or_default();
+        let step = oracles::dense::eliminate(hessian, right).expect("stiff where the shift is held");
         step.iter().zip(&moving).map(|(step, &i)| step * residual[i]).sum::<f64>().max(0.0) / self.dense.nodes as f64
     }
 
