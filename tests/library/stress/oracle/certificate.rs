@@ -77,6 +77,9 @@ impl<T: Real> Judge<'_, T> {
     /// this work.
     fn held_error(&self, residual: &[f64]) -> f64 {
         let moving = self.free();
+        if moving.is_empty() {
+            return 0.0;
+        }
         let right = moving.iter().map(|&i| residual[i]).chain([0.0]).collect();
         let hessian = self.dense.hessian(&moving, Held::Shift(0.0), &vec![0.0; residual.len()], 0.0);
         let step = oracles::dense::eliminate(hessian, right).expect("stiff where the shift is held");
