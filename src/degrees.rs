@@ -13,8 +13,9 @@ pub(crate) const LITTLE: f64 = 1e-2;
 /// next state may leave, of the change that a mode makes up.
 pub(crate) const PARTLY: f64 = 0.1;
 
-/// A share that is about a half: of the nodes of a grid, of a gap that a step may take, of a load that is not borne, of a step
-/// that the next step may exceed, of the change before in the error of a prediction, of a tolerance, of the work that a law has left at its strongest traction.
+/// A share that is about a half: of the nodes of a grid, of a gap that a step may take, of a load that is not borne, of a
+/// step by which the next step may be longer, of the change before in the error of a prediction, of a tolerance, of the
+/// work that a law has left at its strongest traction.
 pub(crate) const HALF: f64 = 0.5;
 
 /// A share that is most, and not all: of a jump that half a step has, of a step that the next one takes along.

@@ -263,7 +263,6 @@ fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(dyn Fn(usize, P
 }
 
 /// What is found along both sides of a map of so many nodes, by the axes, side by side if that is worth a worker.
-#[doc(hidden)]
 pub fn along_sides<R: Send>(nodes: usize, find: impl Fn(usize) -> R + Sync) -> [R; 2] {
     #[cfg(feature = "parallel")]
     if nodes > WORTH && workers() > 1 {

@@ -71,8 +71,7 @@ impl Bracket {
         let low = self.greatest();
         // the farthest tension with a loss that ends the search
         let last = low / (1.0 - (1.0 - HARDLY) * tolerance);
-        let near = peak(&self.borne);
-        let near = near.map(|peak| if peak <= last { last } else { peak * (1.0 - 0.25 * tolerance) }.max(last));
+        let near = peak(&self.borne).map(|peak| peak * (1.0 - 0.25 * tolerance));
         // as long as no tension is too large, each step is at most half as long again as the step before
         let Some(lost) = self.lost else {
             let before = self.borne.iter().rev().nth(1).map_or(0.0, |place| place.tension);
@@ -98,7 +97,7 @@ impl Bracket {
         let beyond = match self.lost {
             None if low < least => least,
             None if low < most => most,
-            None => (2.0 * low - least).min(2.0 * low + HALF * low),
+            None => 2.0 * low - least,
             Some(lost) => 2.0 * lost - most,
         };
         let is_beyond = self.lost.is_none_or(|lost| lost <= least);

@@ -60,6 +60,7 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64
         let mut line_along_y = Nodes::default();
         for (j, line_along_x) in lines_along_x.iter_mut().enumerate() {
             let pressure = pressures[[i, j]].widen();
+            // no line of nodes under load ends here
             if pressure <= 0.0 && line_along_x.count + line_along_y.count == 0 {
                 continue;
             }
