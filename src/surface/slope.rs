@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{ArrayView2, Axis, Zip};
+use ndarray::{Array1, ArrayView2, Axis, Zip};
 
 use crate::par::along_sides;
 
@@ -15,9 +15,16 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
         let (axis, spacing) = (Axis(axis), [spacing.0, spacing.1][axis]);
         let count = heights.len_of(axis);
         let part = |lines: Range<usize>| heights.slice_axis(axis, lines.into());
-        let inside = Zip::from(part(0..count.saturating_sub(1))).and(part(1.min(count)..count));
-        let edge = periodic.then(|| Zip::from(part(count - 1..count)).and(part(0..1)));
-        let pairs = [Some(inside), edge].into_iter().flatten();
+        let inside = (part(0..count.saturating_sub(1)), part(1.min(count)..count));
+        let edge = periodic.then(|| (part(count - 1..count), part(0..1)));
+        let both = [Some(inside), edge].into_iter().flatten();
+        let sides: usize = both.clone().map(|(before, _)| before.len()).sum();
+        let mean: f64 = both.clone().map(|(before, after)| squared_distance(before, after)).sum::<f64>() / sides as f64;
+        // all heights are finite, and the squares that count in the range of `f64`
+        if mean.is_finite() && mean * f64::EPSILON > f64::MIN_POSITIVE {
+            return mean.sqrt() / spacing;
+        }
+        let pairs = both.map(|(before, after)| Zip::from(before).and(after));
         let step =
             |before: &f64, after: &f64| (before.is_finite() && after.is_finite()).then(|| (after - before).abs());
         // in units of the steepest: no square leaves the range of `f64`
@@ -35,4 +42,18 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
     };
     let sides = along_sides(heights.len(), along).into_iter();
     sides.filter(|slope| !slope.is_nan()).reduce(f64::hypot).unwrap_or(f64::NAN)
+}
+
+/// The sum of the squared differences of two maps, row by row.
+fn squared_distance(before: ArrayView2<'_, f64>, after: ArrayView2<'_, f64>) -> f64 {
+    let mut squares = Array1::zeros(before.ncols());
+    let rows = before.rows().into_iter().zip(after.rows());
+    rows.map(|(before, after)| {
+        Zip::from(&mut squares).and(before).and(after).for_each(|square, before, after| {
+            let step = after - before;
+            *square = step * step;
+        });
+        squares.sum()
+    })
+    .sum()
 }

@@ -17,8 +17,8 @@ impl Ranks {
         ranks.clear();
         ranks.extend(values.map(rank));
         // most have no other ones
-        if ranks.iter().any(|rank| !of_rank(*rank).is_finite()) {
-            ranks.retain(|rank| of_rank(*rank).is_finite());
+        if !ranks.iter().fold(true, |all, rank| all & is_finite(*rank)) {
+            ranks.retain(|rank| is_finite(*rank));
         }
         if ranks.is_empty() {
             return None;
@@ -35,12 +35,17 @@ impl Ranks {
 /// A whole number that orders numbers as [`f64::total_cmp`] does.
 fn rank(value: f64) -> i64 {
     let bits = value.to_bits().cast_signed();
-    bits ^ (i64::MAX * i64::from(bits < 0))
+    bits ^ ((bits >> 63) & i64::MAX)
+}
+
+/// Whether a rank is of a finite number: between the ranks of the infinite ones, beyond which those of NaN are.
+fn is_finite(rank: i64) -> bool {
+    (self::rank(f64::NEG_INFINITY) < rank) & (rank < self::rank(f64::INFINITY))
 }
 
 /// The number of a rank.
 fn of_rank(rank: i64) -> f64 {
-    f64::from_bits((rank ^ (i64::MAX * i64::from(rank < 0))).cast_unsigned())
+    f64::from_bits((rank ^ ((rank >> 63) & i64::MAX)).cast_unsigned())
 }
 
 #[cfg(test)]
