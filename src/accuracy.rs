@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::names::names;
 use crate::nested::Level;
-use crate::problem::Control;
+use crate::problem::{Control, Held};
 use crate::solver::Report;
 use crate::stability::ContactStiffness;
 #[cfg(doc)]
@@ -78,19 +78,19 @@ impl Quantity {
     /// [`Error::Unsuited`].
     #[doc(hidden)]
     pub fn check(self, control: Control) -> Result<()> {
-        let (what, reason) = match (self, control) {
-            (Self::Gap, Control::MeanGap(_)) => {
+        let (what, reason) = match (self, control.holds()) {
+            (Self::Gap, Held::MeanGap) => {
                 ("accuracy of the gap", "the mean gap is given: ask for that of the pressure, or of the area")
             }
-            (Self::Gap, Control::Approach(_)) => (
+            (Self::Gap, Held::Approach) => (
                 "accuracy of the gap",
                 "a free half-space has no mean gap: ask for that of the pressure, which is that of the force, or of the area",
             ),
-            (Self::Approach, Control::MeanGap(_) | Control::Approach(_)) => (
+            (Self::Approach, Held::MeanGap | Held::Approach) => (
                 "accuracy of the approach",
                 "bodies in a periodic cell have none, and a given one has no error: ask for that of the area",
             ),
-            (Self::Pressure, Control::MeanPressure(_) | Control::Force(_)) => {
+            (Self::Pressure, Held::Load) => {
                 ("accuracy of the pressure", "it is given: ask for that of the gap, or of the area")
             }
             (Self::Work | Self::Tension, _) => {

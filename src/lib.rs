@@ -129,7 +129,7 @@ pub use grid::Grid;
 pub use nested::Nested;
 #[doc(hidden)]
 pub use par::along_sides;
-pub use problem::{Control, Problem};
+pub use problem::{Control, Held, Problem};
 #[doc(inline)]
 pub use pull_off::PullOff;
 pub use real::Real;

@@ -9,7 +9,7 @@ use crate::degrees::HALF;
 use crate::elastic::OnGrids;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::problem::{Control, Problem, ProblemMut};
+use crate::problem::{Control, Held, Problem, ProblemMut};
 use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{Begin, Branch, Iteration, Method, Report, Settings, Solution, Solved, Solver, Start, Status};
@@ -152,15 +152,15 @@ impl Nested {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
         let hints = law.hints();
         let longer = hints.takes_range_of_grid();
-        let presses = matches!(control, Control::MeanPressure(load) | Control::Force(load) if load > 0.0);
+        let (held, load) = (control.holds(), control.value());
+        let presses = held == Held::Load && load > 0.0;
         let comes_from_afar = presses && settings.branch == Some(Branch::Loading) && hints.touches();
-        let least = match control {
+        let least = match held {
             _ if longer && settings.branch.is_some() && !comes_from_afar => return false,
-            Control::MeanGap(_) => PAYS.1,
-            Control::Approach(_) if !longer => PAYS.0,
-            Control::MeanPressure(load) | Control::Force(load) if hints.zero || load > 0.0 => PAYS.0,
-            Control::MeanPressure(0.0) | Control::Force(0.0) if !longer => PAYS.0,
-            Control::Spring { .. } if hints.zero => PAYS.0,
+            Held::MeanGap => PAYS.1,
+            Held::Approach if !longer => PAYS.0,
+            Held::Load if hints.zero || presses || (load == 0.0 && !longer) => PAYS.0,
+            Held::Spring(_) if hints.zero => PAYS.0,
             _ => return false,
         };
         let measured = surface.absent().is_none() && hints.shape.is_none();

@@ -19,8 +19,8 @@ mod flat;
 mod window;
 mod yielded;
 
-pub use control::Control;
 pub(crate) use control::Load;
+pub use control::{Control, Held};
 pub(crate) use flat::PressedFlat;
 use flat::check_law;
 pub(crate) use window::Window;

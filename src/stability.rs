@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, Minimum, ordered, write};
 use crate::names::names;
 use crate::par::{self, Parts as _};
-use crate::problem::{Control, PressedFlat, Problem, ProblemMut, smoothed_law};
+use crate::problem::{Control, Held, PressedFlat, Problem, ProblemMut, smoothed_law};
 use crate::real::{Real, once};
 use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
@@ -217,7 +217,7 @@ impl StabilityTest {
         Error::positive("tolerance", self.tolerance)?;
         check_gap(&problem, constraint, gap)?;
         // the solution has the value of the mean gap, which springs may make negative
-        let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
+        let kind = if control.holds() == Held::MeanGap { control.with_value(0.0) } else { control };
         let ProblemMut { operator, law, flat, .. } = problem;
         let load = flat.load(kind, constraint.wall())?;
         let smoothed = smoothed_law(&*operator, law);

@@ -7,7 +7,7 @@ use ndarray::Array2;
 use crate::constraint::ContactConstraint;
 use crate::degrees::{HALF, TWICE};
 use crate::error::Result;
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Held, Problem};
 use crate::real::{Real, once};
 use crate::solver::{
     Begin, Branch, Iteration, Least, Nearness, Observer, Place, Potential, Solution, Solved, Solver, Start,
@@ -225,48 +225,33 @@ fn ahead<T: Real>(
     [before, last]: [&(Control, Place<T>); 2],
     load: Control,
 ) -> Option<Array2<T>> {
-    let steps = match (before.0, last.0, load) {
-        (Control::MeanGap(a), Control::MeanGap(b), Control::MeanGap(c))
-        | (Control::Approach(a), Control::Approach(b), Control::Approach(c)) => (c - b) / (b - a),
-        (Control::MeanPressure(a), Control::MeanPressure(b), Control::MeanPressure(c))
-        | (Control::Force(a), Control::Force(b), Control::Force(c)) => {
-            // linear from and across a pressure of zero, where no logarithm is
-            let of_logarithms = (c / b).ln() / (b / a).ln();
-            if a == 0.0 || of_logarithms.is_nan() { (c - b) / (b - a) } else { of_logarithms }
-        }
-        (
-            Control::Spring { stiffness: k, rest: a },
-            Control::Spring { stiffness: l, rest: b },
-            Control::Spring { stiffness: m, rest: c },
-        ) if k == l && l == m => (c - b) / (b - a),
-        _ => f64::NAN,
-    };
+    let [a, b, c] = [before.0, last.0, load].map(Control::value);
+    let of_logarithms = (c / b).ln() / (b / a).ln();
+    // linear from and across a pressure of zero, where no logarithm is
+    let linear = load.holds() != Held::Load || a == 0.0 || of_logarithms.is_nan();
+    let steps = if linear { (c - b) / (b - a) } else { of_logarithms };
+    let alike = before.0.is_like(last.0) && last.0.is_like(load);
     let on_branch = !problem.adheres() || steps >= 0.0;
-    if !(steps.is_finite() && on_branch) {
+    if !(alike && steps.is_finite() && on_branch) {
         return None;
     }
     let on = (&problem.flat, *problem.operator.grid());
     Some(extrapolated([&before.1.gap, &last.1.gap], steps.clamp(-TWICE, TWICE), (least, true), on))
 }
 
+/// Whether two controls are pressures, or forces.
+fn loads(before: Control, load: Control) -> bool {
+    load.holds() == Held::Load && before.is_like(load)
+}
+
 /// Whether a load presses so much more than the load before that the last gap says little.
 fn is_far(before: Control, load: Control) -> bool {
-    match (before, load) {
-        (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
-            a >= 0.0 && b > ANEW * a
-        }
-        _ => false,
-    }
+    loads(before, load) && before.value() >= 0.0 && load.value() > ANEW * before.value()
 }
 
 /// Whether a load that presses is taken away.
 fn is_last_unloading(before: Control, load: Control) -> bool {
-    match (before, load) {
-        (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
-            a > 0.0 && b == 0.0
-        }
-        _ => false,
-    }
+    loads(before, load) && before.value() > 0.0 && load.value() == 0.0
 }
 
 /// Whether a gap was foretold, without a jump: the extrapolation is closer to it than the gap before.

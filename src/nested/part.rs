@@ -100,13 +100,7 @@ impl Part {
             surface.grid().greatest(own)
         };
         let lower = highest(whole) - highest(part);
-        let (lx, ly) = whole.grid().lengths();
-        match control {
-            Control::MeanPressure(pressure) => Control::Force(pressure * lx * ly),
-            Control::Approach(approach) => Control::Approach(approach - lower),
-            Control::Spring { stiffness, rest } => Control::Spring { stiffness, rest: rest - lower },
-            control => control,
-        }
+        control.on_part(whole.grid().lengths(), lower)
     }
 }
 

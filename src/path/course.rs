@@ -7,7 +7,7 @@ use super::figures::{Figures, Mode};
 use super::quadrature::trapezoid;
 use super::{Event, Jump, PathSettings};
 use crate::degrees::{FIRST_STEP, HARDLY};
-use crate::problem::{Control, Load, PressedFlat};
+use crate::problem::{Control, Held, Load, PressedFlat};
 use crate::solver::Report;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -130,14 +130,12 @@ impl Course {
     }
 
     pub(super) fn enter(&mut self, leg: usize, load: Control, settings: &PathSettings) {
-        let (mode, end) = match load {
-            Control::MeanGap(gap) => (Mode::Gap, gap),
-            Control::Approach(approach) => (Mode::Gap, -approach),
-            Control::MeanPressure(pressure) => (Mode::Pressure, pressure),
-            Control::Force(force) => (Mode::Pressure, force / self.area),
-            Control::Spring { stiffness, rest } => {
-                (Mode::Spring(self.area / stiffness), if self.free { -rest } else { rest })
-            }
+        let value = load.value_on(self.area);
+        let (mode, end) = match load.holds() {
+            Held::MeanGap => (Mode::Gap, value),
+            Held::Approach => (Mode::Gap, -value),
+            Held::Load => (Mode::Pressure, value),
+            Held::Spring(stiffness) => (Mode::Spring(self.area / stiffness), if self.free { -value } else { value }),
         };
         (self.leg, self.pressures) = (leg, None);
         self.turn(mode, end, settings);

@@ -56,12 +56,65 @@ names!(Control {
     Spring = "spring",
 });
 
+/// What a [`Control`] holds, as [`Control::holds`] says it.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Held {
+    /// The mean gap.
+    MeanGap,
+    /// The approach.
+    Approach,
+    /// The load itself: a mean pressure or a force.
+    Load,
+    /// The far end of a spring of this stiffness, force per length.
+    Spring(f64),
+}
+
 impl Control {
+    /// What is held.
+    pub fn holds(mut self) -> Held {
+        self.quantity().0
+    }
+
     /// The value that is held: a length, pressure or force; of a spring its rest.
-    pub fn value(self) -> f64 {
+    pub fn value(mut self) -> f64 {
+        *self.quantity().2
+    }
+
+    /// What is held, its name in messages, and its value.
+    pub(super) fn quantity(&mut self) -> (Held, &'static str, &mut f64) {
         match self {
-            Self::MeanGap(value) | Self::MeanPressure(value) | Self::Force(value) | Self::Approach(value) => value,
-            Self::Spring { rest, .. } => rest,
+            Self::MeanGap(gap) => (Held::MeanGap, "mean gap", gap),
+            Self::MeanPressure(pressure) => (Held::Load, "mean pressure", pressure),
+            Self::Force(force) => (Held::Load, "normal force", force),
+            Self::Approach(approach) => (Held::Approach, "approach", approach),
+            Self::Spring { stiffness, rest } => (Held::Spring(*stiffness), "rest of the spring", rest),
+        }
+    }
+
+    /// The control of the same kind with another value.
+    pub(crate) fn with_value(mut self, value: f64) -> Self {
+        *self.quantity().2 = value;
+        self
+    }
+
+    /// The value, of a force the mean pressure on a nominal area.
+    pub(crate) fn value_on(self, area: f64) -> f64 {
+        if let Self::Force(force) = self { force / area } else { self.value() }
+    }
+
+    /// Whether another control differs from this one in the value alone.
+    pub(crate) fn is_like(self, other: Self) -> bool {
+        self.with_value(other.value()) == other
+    }
+
+    /// The control on a part of a free surface with these side lengths, if all of the load is on the part, and the
+    /// highest node of the part is so much lower.
+    pub(crate) fn on_part(self, (lx, ly): (f64, f64), lower: f64) -> Self {
+        match self {
+            Self::MeanPressure(pressure) => Self::Force(pressure * lx * ly),
+            Self::Approach(position) | Self::Spring { rest: position, .. } => self.with_value(position - lower),
+            Self::MeanGap(_) | Self::Force(_) => self,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The surface pressed flat, and the loads that a problem has.
 
-use super::{Control, Load, Window, Yielded};
+use super::{Control, Held, Load, Window, Yielded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
@@ -151,42 +151,35 @@ impl<T: Real> PressedFlat<T> {
     }
 
     /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
-    pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
-        let refused = |reason| Err(Error::Unsuited { what: control.name(), reason });
-        let name = match control {
-            Control::MeanGap(_) => "mean gap",
-            Control::MeanPressure(_) => "mean pressure",
-            Control::Force(_) => "normal force",
-            Control::Approach(_) => "approach",
-            Control::Spring { .. } => "rest of the spring",
-        };
-        let held = || Error::finite(name, control.value());
+    pub(crate) fn load(&self, mut control: Control, wall: Wall<'_, T>) -> Result<Load> {
+        let refused = move |reason| Err(Error::Unsuited { what: control.name(), reason });
+        let on_area = control.value_on(self.area);
+        let (kind, name, &mut value) = control.quantity();
+        let held = || Error::finite(name, value).map(|_| on_area);
         let (free, absent) = (!self.boundary.is_periodic(), !self.faces_all());
-        let on_grid = |pressure: f64| pressure / self.padding;
-        let load = match control {
-            Control::MeanGap(_) if free => {
+        let load = match kind {
+            Held::MeanGap if free => {
                 return refused("a free half-space has no mean gap to be held: give a force, an approach or a spring");
             }
-            Control::MeanGap(_) | Control::Spring { .. } if absent && !free => {
+            Held::MeanGap | Held::Spring(_) if absent && !free => {
                 return refused(
                     "the mean gap of a periodic surface with absent nodes is not what the load works on: give a \
                      pressure or a force",
                 );
             }
-            Control::Approach(_) if !free && (absent || self.far_compliance.is_none()) => {
+            Held::Approach if !free && (absent || self.far_compliance.is_none()) => {
                 return refused(
                     "bodies in a periodic cell have no approach, but for a layer or a coating: give a mean gap, or take \
                      a free half-space",
                 );
             }
-            Control::MeanGap(_) if !wall.keeps_apart() => Load::Gap(held()?),
-            Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)? + self.mean_depth()),
-            Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
-            Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
-            Control::Approach(_) => self.load_at_approach(held()?),
-            Control::Spring { stiffness, rest } => {
+            Held::MeanGap if !wall.keeps_apart() => Load::Gap(held()?),
+            Held::MeanGap => Load::Gap(Error::non_negative(name, value)? + self.mean_depth()),
+            Held::Load => Load::Pressure(held()? / self.padding),
+            Held::Approach => self.load_at_approach(held()?),
+            Held::Spring(stiffness) => {
                 Error::positive("stiffness of the spring", stiffness)?;
-                held()?;
+                let rest = held()?;
                 let compliance = self.padding * self.area / stiffness + self.boundary.mean_compliance();
                 Load::Spring {
                     stiffness: compliance.recip(),

@@ -8,7 +8,7 @@ use crate::constraint::Update;
 use crate::error::Result;
 use crate::field::{CHUNK, Field, read, write};
 use crate::par::Parts;
-use crate::problem::{Control, Load};
+use crate::problem::{Held, Load};
 use crate::real::Real;
 
 /// Continues with another stage, if it is another one.
@@ -34,10 +34,8 @@ pub(super) fn leave<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, stage: 
 /// far apart as the law's equilibrium separation, or a smaller mean gap that is held.
 fn leave_wall<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>) -> Result<()> {
     if let Some(separation) = descent.iterate.posed.separation() {
-        let lift = match descent.iterate.posed.control {
-            Control::MeanGap(held) => separation.min(T::lit(held)),
-            _ => separation,
-        };
+        let control = descent.iterate.posed.control;
+        let lift = if control.holds() == Held::MeanGap { separation.min(T::lit(control.value())) } else { separation };
         descent.iterate.each_gap(|gap| gap + lift);
     }
     let load =

@@ -15,11 +15,7 @@ pub(crate) fn unload<T: Real>(
     mut place: Place<T>,
 ) -> Result<Option<Solved<T>>> {
     for step in 1..=TRIES {
-        let of_load = |share: f64| match load {
-            Control::Force(force) => Control::Force(share * force),
-            Control::MeanPressure(pressure) => Control::MeanPressure(share * pressure),
-            other => other,
-        };
+        let of_load = |share: f64| load.with_value(share * load.value());
         let pressed = solve(of_load(FIRST_STEP.powi(step as i32)), Begin::Found(place))?;
         if !pressed.is_settled() || pressed.solution.report.contact_nodes == 0 {
             break;

@@ -6,7 +6,7 @@ use super::Stability;
 use crate::constraint::ContactConstraint;
 use crate::degrees::PARTLY;
 use crate::error::{Error, Result};
-use crate::problem::{Control, Problem};
+use crate::problem::{Held, Problem};
 use crate::real::{Real, once};
 use crate::solver::{
     Begin, Iteration, Observer, Potential, Solution, Solved, Solver, Start, Status, bounded, refuse_hardness,
@@ -98,12 +98,11 @@ impl<T: Real> Stability<T> {
             let report = &solution.report;
             // what the load works on
             let position = report.approach.map_or(report.mean_gap, |approach| -approach);
-            let load = match control {
-                Control::MeanGap(_) | Control::Approach(_) => 0.0,
-                Control::MeanPressure(pressure) => pressure * position,
-                Control::Force(force) => force / area * position,
-                Control::Spring { stiffness, rest } => {
-                    let rest = if report.approach.is_some() { -rest } else { rest };
+            let load = match control.holds() {
+                Held::MeanGap | Held::Approach => 0.0,
+                Held::Load => control.value_on(area) * position,
+                Held::Spring(stiffness) => {
+                    let rest = if report.approach.is_some() { -control.value() } else { control.value() };
                     0.5 * stiffness / area * (position - rest).powi(2)
                 }
             };

@@ -27,7 +27,7 @@ mod words;
 
 use asperity::contact::Patch;
 use asperity::solver::Criterion;
-use asperity::{Branch, Control, Real, Report, Status};
+use asperity::{Branch, Control, Held, Real, Report, Status};
 use asperity_flow::Axis;
 use serde::Serialize;
 
@@ -304,10 +304,10 @@ pub(crate) const SUMMARY: &[(&str, Line)] = &[
 
 /// The approach that a load holds.
 fn held(control: Control) -> Option<f64> {
-    if let Control::Approach(approach) = control { Some(approach) } else { None }
+    (control.holds() == Held::Approach).then(|| control.value())
 }
 
 /// The stiffness of a spring, if the load is one.
 pub(crate) fn stiffness(control: Control) -> Option<f64> {
-    if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
+    if let Held::Spring(stiffness) = control.holds() { Some(stiffness) } else { None }
 }

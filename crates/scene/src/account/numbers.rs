@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::account::{Account, INPUTS, LIMIT, OUTCOME, PLASTIC, PulledOff, Row, STATE, STIFFNESS, Step, interface};
 use crate::key::{
-    AREA, Dimension, ELECTRICAL_CONDUCTANCE, FORCE, Key, LENGTH, Measure, Number, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    THERMAL_CONDUCTANCE, TRANSMISSIVITY, Units,
+    AREA, Dimension, ELECTRICAL_CONDUCTANCE, FORCE, Key, LENGTH, Load, Measure, Number, PER_LENGTH, PER_PRESSURE,
+    PRESSURE, THERMAL_CONDUCTANCE, TRANSMISSIVITY, Units,
 };
 use crate::numbers::{percent, rounded};
 
@@ -51,9 +51,7 @@ impl Measure {
     pub fn find(name: &str, control: &str, on_line: bool) -> Self {
         match (name, control) {
             ("perimeter", _) if on_line => Self::Plain,
-            ("control_value", "mean-pressure") => Self::Of(PRESSURE),
-            ("control_value", "normal-force") => Self::Of(FORCE),
-            ("control_value", "mean-gap" | "approach" | "spring") => Self::Of(LENGTH),
+            ("control_value", _) => Load::key_of(control).map_or(Self::Plain, |key| Self::find(key, "", on_line)),
             _ => {
                 let known = Number::all().filter(|number| number.name == name).map(|number| number.measure);
                 let columns = COLUMNS.iter().filter(|(names, _)| names.split(' ').any(|column| column == name));

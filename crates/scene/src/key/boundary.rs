@@ -1,6 +1,6 @@
 //! The boundary of the elastic body.
 
-use asperity::{Control, Surface};
+use asperity::{Control, Held, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::Array2;
 
@@ -41,13 +41,9 @@ impl Boundary {
     /// The gap of a body that comes from afar: undeformed, at the approach at which `loads` begin, if they grow from
     /// one before touch. The default start of a solve under a pull would find the body sticking.
     pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
-        let (from, to) = match *loads {
-            [Control::Approach(from), Control::Approach(to), ..] => (from, to),
-            [Control::Spring { rest: from, .. }, Control::Spring { rest: to, .. }, ..] => (from, to),
-            _ => return None,
-        };
-        let comes = self == Self::Free && from < 0.0 && to > from;
-        comes.then(|| self.undeformed(surface, from))
+        let [from, to, ..] = *loads else { return None };
+        let comes = self == Self::Free && from.holds() != Held::Load && from.value() < 0.0 && to.value() > from.value();
+        comes.then(|| self.undeformed(surface, from.value()))
     }
 
     /// The gap of undeformed bodies at an approach, a mean gap, or the position at rest of a spring.
@@ -55,23 +51,19 @@ impl Boundary {
     /// # Errors
     /// The reason and the remedy, if a load does not say how far they are, or if they overlap.
     pub fn apart(self, surface: &Surface, load: Control) -> std::result::Result<Array2<f64>, String> {
-        let at = match load {
-            Control::Approach(at) | Control::MeanGap(at) | Control::Spring { rest: at, .. } => at,
-            _ => {
-                let remedy = if self == Self::Free { "an approach" } else { "a mean gap" };
-                let name = load.name().replace('-', " ");
-                return Err(format!(
-                    "undeformed bodies are to be apart, but a {name} does not say how far: give {remedy} or a spring, or \
-                     a gap to start from"
-                ));
-            }
-        };
+        let (name, at) = (load.name().replace('-', " "), load.value());
+        if load.holds() == Held::Load {
+            let remedy = if self == Self::Free { "an approach" } else { "a mean gap" };
+            return Err(format!(
+                "undeformed bodies are to be apart, but a {name} does not say how far: give {remedy} or a spring, or a \
+                 gap to start from"
+            ));
+        }
         let gap = self.undeformed(surface, at);
         match surface.grid().each(gap.iter().any(|&gap| gap < 0.0)).contains(&true) {
-            true => Err(format!(
-                "undeformed bodies overlap where the {} is {at}: give one at which they are apart",
-                load.name().replace('-', " ")
-            )),
+            true => {
+                Err(format!("undeformed bodies overlap where the {name} is {at}: give one at which they are apart"))
+            }
             false => Ok(gap),
         }
     }

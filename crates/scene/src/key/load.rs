@@ -1,6 +1,6 @@
 //! The loads of a run, as options and keywords say them.
 
-use asperity::Control;
+use asperity::{Control, Held};
 
 use crate::key::{Boundary, Entries, FORCE, FORCE_PER_LENGTH, Kind, LENGTH, PRESSURE, Range, keys};
 
@@ -195,6 +195,12 @@ impl Load {
         KINDS.iter().find(|kind| kind.many == many).map(|kind| kind.one)
     }
 
+    /// The key of one load, by the name of its control.
+    pub(crate) fn key_of(control: &str) -> Option<&'static str> {
+        let mut keys = KINDS.iter().map(|kind| kind.one);
+        keys.find(|key| key.trim_end_matches("_position") == control.replace('-', "_"))
+    }
+
     /// The keys of a list of loads that are held.
     pub fn many() -> impl Iterator<Item = &'static str> {
         let held = KINDS.iter().filter(|kind| kind.one != "contact_fraction");
@@ -227,16 +233,16 @@ impl Load {
             Self::Reduced(pressure) => Control::MeanPressure(pressure),
             Self::Fraction(_) => return Ok(()),
         };
-        let reason = match (boundary, control) {
-            (Boundary::Periodic, Control::Approach(_)) if !yields => {
+        let reason = match (boundary, control.holds()) {
+            (Boundary::Periodic, Held::Approach) if !yields => {
                 "an approach needs {boundary=free}, or a {layer} or a {coating}: in a periodic cell other bodies have \
                  none, give a mean gap, a pressure or a force"
             }
-            (Boundary::Free, Control::MeanGap(_)) => {
+            (Boundary::Free, Held::MeanGap) => {
                 "a mean gap needs {boundary=periodic}: a free half-space has none to be held, give an approach, a \
                  force, a pressure or a spring"
             }
-            (_, Control::MeanPressure(load) | Control::Force(load)) if load < 0.0 && !adheres => {
+            (_, Held::Load) if control.value() < 0.0 && !adheres => {
                 "a negative load pulls, and nothing holds surfaces without adhesion together: press them, or give a {law}"
             }
             _ => return Ok(()),

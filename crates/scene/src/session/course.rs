@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use asperity::path::{Path, PathEnd, PathSettings};
-use asperity::{Branch, ContactSearch, Control, Error, Grid, Real, Result, Sweep};
+use asperity::{Branch, ContactSearch, Control, Error, Grid, Held, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -257,7 +257,7 @@ impl<T: Scalar> Course<T> {
     pub fn check(&self, one: &OneGrid<T>) -> Result<()> {
         let periodic = one.facts.scene.elastic.boundary == Boundary::Periodic;
         if let (Way::Cycle(loads, _), true) = (&self.way, periodic)
-            && matches!(loads.first(), Some(Control::Approach(_)))
+            && loads.first().is_some_and(|load| load.holds() == Held::Approach)
         {
             // the compression of the whole is no part of the energy of waves
             let reason = "its balance of energy needs a free boundary: give mean gaps, or sweep the approaches";
@@ -370,9 +370,9 @@ fn listed(numbers: &[f64]) -> String {
 fn direction(loads: &[Control], leg: usize, boundary: Boundary) -> &'static str {
     let Some(&[from, to]) = leg.checked_sub(1).and_then(|before| loads.get(before..=leg)) else { return "start" };
     // the loads under which bodies come together as they grow
-    let pressing = match to {
-        Control::MeanGap(_) => false,
-        Control::Spring { .. } => boundary == Boundary::Free,
+    let pressing = match to.holds() {
+        Held::MeanGap => false,
+        Held::Spring(_) => boundary == Boundary::Free,
         _ => true,
     };
     if (to.value() > from.value()) == pressing { "approach" } else { WITHDRAWAL }
