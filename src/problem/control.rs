@@ -100,7 +100,10 @@ impl Control {
 
     /// The value, of a force the mean pressure on a nominal area.
     pub(crate) fn value_on(self, area: f64) -> f64 {
-        if let Self::Force(force) = self { force / area } else { self.value() }
+        match self {
+            Self::Force(force) => force / area,
+            Self::MeanGap(_) | Self::MeanPressure(_) | Self::Approach(_) | Self::Spring { .. } => self.value(),
+        }
     }
 
     /// Whether another control differs from this one in the value alone.
@@ -123,7 +126,7 @@ impl Control {
         match self {
             Self::Force(force) => Self::Force(share * force),
             Self::Spring { stiffness, rest } => Self::Spring { stiffness: share * stiffness, rest },
-            other => other,
+            Self::MeanGap(_) | Self::MeanPressure(_) | Self::Approach(_) => self,
         }
     }
 }
