@@ -99,8 +99,7 @@ impl Part {
             let own = surface.heights().iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
             surface.grid().greatest(own)
         };
-        let lower = highest(whole) - highest(part);
-        control.on_part(whole.grid().lengths(), lower)
+        control.on_part(whole.grid().lengths(), highest(whole) - highest(part))
     }
 }
 

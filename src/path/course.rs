@@ -7,7 +7,7 @@ use super::figures::{Figures, Mode};
 use super::quadrature::trapezoid;
 use super::{Event, Jump, PathSettings};
 use crate::degrees::{FIRST_STEP, HARDLY};
-use crate::problem::{Control, Held, Load, PressedFlat};
+use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -130,12 +130,10 @@ impl Course {
     }
 
     pub(super) fn enter(&mut self, leg: usize, load: Control, settings: &PathSettings) {
-        let value = load.value_on(self.area);
-        let (mode, end) = match load.holds() {
-            Held::MeanGap => (Mode::Gap, value),
-            Held::Approach => (Mode::Gap, -value),
-            Held::Load => (Mode::Pressure, value),
-            Held::Spring(stiffness) => (Mode::Spring(self.area / stiffness), if self.free { -value } else { value }),
+        let (mode, end) = match load.on_position(self.free, self.area) {
+            Load::Gap(position) => (Mode::Gap, position),
+            Load::Pressure(pressure) => (Mode::Pressure, pressure),
+            Load::Spring { stiffness, rest } => (Mode::Spring(self.area / stiffness), rest),
         };
         (self.leg, self.pressures) = (leg, None);
         self.turn(mode, end, settings);

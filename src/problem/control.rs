@@ -99,10 +99,22 @@ impl Control {
     }
 
     /// The value, of a force the mean pressure on a nominal area.
-    pub(crate) fn value_on(self, area: f64) -> f64 {
+    pub(super) fn value_on(self, area: f64) -> f64 {
         match self {
             Self::Force(force) => force / area,
             Self::MeanGap(_) | Self::MeanPressure(_) | Self::Approach(_) | Self::Spring { .. } => self.value(),
+        }
+    }
+
+    /// The load on the position, which is the mean gap, or with a free boundary minus the approach: a force is the mean
+    /// pressure on a nominal area, and a spring has its own stiffness.
+    pub(crate) fn on_position(self, free: bool, area: f64) -> Load {
+        let value = self.value_on(area);
+        match self.holds() {
+            Held::MeanGap => Load::Gap(value),
+            Held::Approach => Load::Gap(-value),
+            Held::Load => Load::Pressure(value),
+            Held::Spring(stiffness) => Load::Spring { stiffness, rest: if free { -value } else { value } },
         }
     }
 

@@ -6,7 +6,7 @@ use super::Stability;
 use crate::constraint::ContactConstraint;
 use crate::degrees::PARTLY;
 use crate::error::{Error, Result};
-use crate::problem::{Held, Problem};
+use crate::problem::{Load, Problem};
 use crate::real::{Real, once};
 use crate::solver::{
     Begin, Iteration, Observer, Potential, Solution, Solved, Solver, Start, Status, bounded, refuse_hardness,
@@ -98,13 +98,10 @@ impl<T: Real> Stability<T> {
             let report = &solution.report;
             // what the load works on
             let position = report.approach.map_or(report.mean_gap, |approach| -approach);
-            let load = match control.holds() {
-                Held::MeanGap | Held::Approach => 0.0,
-                Held::Load => control.value_on(area) * position,
-                Held::Spring(stiffness) => {
-                    let rest = if report.approach.is_some() { -control.value() } else { control.value() };
-                    0.5 * stiffness / area * (position - rest).powi(2)
-                }
+            let load = match control.on_position(report.approach.is_some(), area) {
+                Load::Gap(_) => 0.0,
+                Load::Pressure(pressure) => pressure * position,
+                Load::Spring { stiffness, rest } => 0.5 * stiffness / area * (position - rest).powi(2),
             };
             report.elastic_energy + report.adhesive_energy + load
         };
