@@ -71,7 +71,13 @@ pub enum Held {
 }
 
 impl Control {
-    /// What is held.
+    /// What is held: of a pressure and of a force the load.
+    ///
+    /// ```
+    /// use asperity::{Control, Held};
+    /// assert_eq!(Control::Force(2.0).holds(), Held::Load);
+    /// assert_eq!(Control::Spring { stiffness: 3.0, rest: 0.1 }.holds(), Held::Spring(3.0));
+    /// ```
     pub fn holds(mut self) -> Held {
         self.quantity().0
     }

@@ -38,9 +38,9 @@ fn rank(value: f64) -> i64 {
     bits ^ ((bits >> 63) & i64::MAX)
 }
 
-/// Whether a rank is of a finite number: between the ranks of the infinite ones, beyond which those of NaN are.
-fn is_finite(rank: i64) -> bool {
-    (self::rank(f64::NEG_INFINITY) < rank) & (rank < self::rank(f64::INFINITY))
+/// Whether a rank is of a finite number: between the ranks of the infinite numbers, beyond which NaN is.
+fn is_finite(place: i64) -> bool {
+    (rank(f64::NEG_INFINITY) < place) & (place < rank(f64::INFINITY))
 }
 
 /// The number of a rank.
