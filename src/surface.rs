@@ -26,6 +26,8 @@ pub(crate) use resample::refine;
 pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};
 pub use slope::rms_slope;
+#[doc(hidden)]
+pub use slope::squared_steps;
 pub use spectrum::{Psd, Spectrum};
 pub use statistics::SurfaceStatistics;
 

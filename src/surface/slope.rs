@@ -19,7 +19,8 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
         let edge = periodic.then(|| (part(count - 1..count), part(0..1)));
         let both = [Some(inside), edge].into_iter().flatten();
         let sides: usize = both.clone().map(|(before, _)| before.len()).sum();
-        let mean: f64 = both.clone().map(|(before, after)| squared_distance(before, after)).sum::<f64>() / sides as f64;
+        let squares = both.clone().map(|(before, after)| squared_steps(before, after, Axis(0)).sum());
+        let mean = squares.sum::<f64>() / sides as f64;
         // all heights are finite, and the squares that count in the range of `f64`
         if mean.is_finite() && mean * f64::EPSILON > f64::MIN_POSITIVE {
             return mean.sqrt() / spacing;
@@ -44,16 +45,15 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
     sides.filter(|slope| !slope.is_nan()).reduce(f64::hypot).unwrap_or(f64::NAN)
 }
 
-/// The sum of the squared differences of two maps, row by row.
-fn squared_distance(before: ArrayView2<'_, f64>, after: ArrayView2<'_, f64>) -> f64 {
-    let mut squares = Array1::zeros(before.ncols());
-    let rows = before.rows().into_iter().zip(after.rows());
-    rows.map(|(before, after)| {
-        Zip::from(&mut squares).and(before).and(after).for_each(|square, before, after| {
-            let step = after - before;
-            *square = step * step;
-        });
-        squares.sum()
-    })
-    .sum()
+/// The sums of the squared steps from the lines of a map to other lines of it, line by line along an axis.
+pub fn squared_steps(from: ArrayView2<'_, f64>, to: ArrayView2<'_, f64>, axis: Axis) -> Array1<f64> {
+    let (mut of_lines, mut of_row) = (Array1::zeros(to.len_of(axis)), Array1::zeros(to.ncols()));
+    for (i, (to, from)) in to.rows().into_iter().zip(from.rows()).enumerate() {
+        Zip::from(&mut of_row).and(to).and(from).for_each(|square, to, from| *square = (to - from).powi(2));
+        match axis {
+            Axis(0) => of_lines[i] = of_row.sum(),
+            _ => of_lines += &of_row,
+        }
+    }
+    of_lines
 }

@@ -1,7 +1,8 @@
 //! The relief of a surface: its figures for the warnings.
 
 use asperity::along_sides;
-use ndarray::{Array1, Array2, ArrayView2, Axis, Zip};
+use asperity::surface::squared_steps;
+use ndarray::{Array2, ArrayView2, Axis};
 
 use super::extremes::Extremes;
 
@@ -38,16 +39,7 @@ impl Side {
         // the mean square of the steps from each line of a range to another one
         let squares = |from: [usize; 2], to: [usize; 2]| {
             let [from, to] = [from, to].map(|[first, end]| heights.slice_axis(axis, (first..end).into()));
-            let mut of_lines = Array1::zeros(to.len_of(axis));
-            let mut of_row = Array1::zeros(to.ncols());
-            for (i, (to, from)) in to.rows().into_iter().zip(from.rows()).enumerate() {
-                Zip::from(&mut of_row).and(to).and(from).for_each(|square, to, from| *square = (to - from).powi(2));
-                match axis {
-                    Axis(0) => of_lines[i] = of_row.sum(),
-                    _ => of_lines += &of_row,
-                }
-            }
-            of_lines / heights.len_of(across) as f64
+            squared_steps(from, to, axis) / heights.len_of(across) as f64
         };
         let steps = squares([0, n - 1], [1, n]);
         let mean_steps: Vec<f64> = means.windows(2).into_iter().map(|pair| pair[1] - pair[0]).collect();

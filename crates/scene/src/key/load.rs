@@ -197,8 +197,8 @@ impl Load {
 
     /// The key of one load, by the name of its control.
     pub(crate) fn key_of(control: &str) -> Option<&'static str> {
-        let mut keys = KINDS.iter().map(|kind| kind.one);
-        keys.find(|key| key.trim_end_matches("_position") == control.replace('-', "_"))
+        let makes = |kind: &&LoadKind| matches!((kind.make)(0.0, 1.0), Load::Held(made) if made.name() == control);
+        KINDS.iter().find(makes).map(|kind| kind.one)
     }
 
     /// The keys of a list of loads that are held.
