@@ -10,7 +10,7 @@ use crate::real::{Real, once};
 use crate::search::MOST_SOLVES;
 use crate::setters::setters;
 use crate::solver::{
-    Begin, Branch, Criterion, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall,
+    Aim, Begin, Branch, Criterion, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall,
     refuse_hardness, unload,
 };
 
@@ -150,7 +150,9 @@ impl PullOff {
         let mut search =
             Search { solver, problem, observe, branch, tolerance, is_rough, bracket, solves, operator_applications };
         let preload = self.preload.unwrap_or(0.0);
-        let pressed = search.solve(Control::MeanPressure(preload), begin)?;
+        // where surfaces have touched under the preload need not be known to a node
+        let tolerance = search.rough(if preload > 0.0 { LITTLE } else { ROUGHLY });
+        let pressed = search.solve_to(tolerance, Control::MeanPressure(preload), begin)?;
         if !pressed.is_settled() {
             return Ok(search.end(pressed, false));
         }
@@ -210,21 +212,23 @@ struct Search<'a, T: Real> {
 impl<T: Real> Search<'_, T> {
     /// Solves under a load that differs much from the one before.
     fn solve(&mut self, load: Control, begin: Begin<'_, T>) -> Result<Solved<T>> {
-        self.solve_to(self.roughly(1.0), load, begin)
+        self.solve_to(self.rough(ROUGHLY), load, begin)
     }
 
-    /// The tolerance of a solve, by the relative change of the load.
-    fn roughly(&self, change: f64) -> f64 {
+    /// The tolerance of a rough solve, or the solver's own where this is larger, or no solve is rough.
+    fn rough(&self, tolerance: f64) -> f64 {
         let own = self.solver.settings.tolerance_in::<T>();
-        if self.is_rough { own.max(ROUGHLY.min(LITTLE * change)) } else { own }
+        if self.is_rough { own.max(tolerance) } else { own }
     }
 
     fn solve_to(&mut self, tolerance: f64, load: Control, begin: Begin<'_, T>) -> Result<Solved<T>> {
+        let is_rough = tolerance > self.solver.settings.tolerance_in::<T>();
+        let aim = if is_rough { Aim::Trial } else { Aim::Solution };
         let parts = self.problem.parts();
         let smoothed = smoothed_law(&*parts.operator, parts.law);
         let parts = ProblemMut { law: smoothed.as_deref().unwrap_or(parts.law), ..parts };
         let observe = &mut *self.observe;
-        let solved = self.solver.to(tolerance, |solver| solver.run(parts, load, begin, observe))?;
+        let solved = self.solver.to(tolerance, |solver| solver.run_for(aim, parts, load, begin, observe))?;
         self.solves += 1;
         self.operator_applications += solved.solution.report.operator_applications;
         Ok(solved)
@@ -281,7 +285,8 @@ impl<T: Real> Search<'_, T> {
         loop {
             while self.solves < MOST_SOLVES && !self.bracket.is_narrow(self.tolerance) {
                 let tension = self.bracket.next(first, self.tolerance);
-                let tolerance = self.roughly(1.0 - self.bracket.greatest() / tension);
+                let change = 1.0 - self.bracket.greatest() / tension;
+                let tolerance = self.rough(ROUGHLY.min(LITTLE * change));
                 let solved = self.solve_to(tolerance, Control::MeanPressure(-tension), Begin::Found(held.place()))?;
                 if solved.is_settled() {
                     self.bracket.bear(Held { tension, ..Held::of(&solved.solution.report) });

@@ -39,7 +39,7 @@ pub use branch::Branch;
 pub(crate) use coarse::Coarse;
 pub use descent::rey2017::Criterion;
 use driver::Job;
-pub(crate) use driver::Observer;
+pub(crate) use driver::{Aim, Observer};
 pub(crate) use minimisation::Nearness;
 pub(crate) use place::Place;
 pub(crate) use potential::{Least, Of, Potential, bounded};
@@ -234,8 +234,20 @@ impl<T: Real> Solver<dyn ContactConstraint<T>> {
         begin: Begin<'_, T>,
         observe: Observer<'_>,
     ) -> Result<Solved<T>> {
+        self.run_for(Aim::Solution, problem, control, begin, observe)
+    }
+
+    /// Solves for an aim.
+    pub(crate) fn run_for(
+        &mut self,
+        aim: Aim,
+        problem: ProblemMut<'_, T>,
+        control: Control,
+        begin: Begin<'_, T>,
+        observe: Observer<'_>,
+    ) -> Result<Solved<T>> {
         let Self { settings, constraint } = self;
         let ProblemMut { operator, law, given, flat } = problem;
-        solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
+        solve(operator, Job { aim, law, given, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::coarse::Coarse;
-use super::driver::Observer;
+use super::driver::{Aim, Observer};
 use super::iterate::Iterate;
 use super::minimisation::{Nearness, Preconditioned};
 use super::plan::StageLaw;
@@ -81,6 +81,11 @@ impl<'a, T: Real, Lo: Real> Descent<'a, T, Lo> {
         Proof::of(&self.iterate, self.certificate)
     }
 
+    /// Whether the state is what a trial is for.
+    pub(super) fn ends_trial(&self) -> bool {
+        self.iterate.posed.aim == Aim::Trial && self.proof().converged()
+    }
+
     pub(super) fn iterations(&self) -> usize {
         self.iterations
     }
@@ -129,9 +134,10 @@ impl<'a, T: Real, Lo: Real> Descent<'a, T, Lo> {
     }
 
     /// Computes p = K⁻¹(g + h) anew, and the certificate of its residual: a solve ends only if that meets the
-    /// tolerance. A start needs no such proof.
+    /// tolerance. A start and a trial need no such proof.
     fn confirm(&mut self) -> Result<()> {
-        if self.iterate.age() == 0 || self.proof().start_tolerance().is_some() {
+        let leads_on = self.iterate.posed.aim == Aim::Trial || self.proof().start_tolerance().is_some();
+        if self.iterate.age() == 0 || leads_on {
             return Ok(());
         }
         let before = self.certificate;

@@ -21,7 +21,18 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
 use crate::real::Real;
 
+/// What a solve is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// The solution.
+    Solution,
+    /// Whether surfaces bear a load, and a state from which to go on: its error is not proved on a pressure that is computed
+    /// anew, and surfaces that come apart are not held apart.
+    Trial,
+}
+
 pub struct Job<'a, T: Real> {
+    pub(super) aim: Aim,
     pub(super) law: &'a dyn AdhesionLaw<T>,
     /// the law of the problem, as it was given
     pub(super) given: &'a SharedLaw<T>,
@@ -38,7 +49,7 @@ pub(crate) type Observer<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()>
 
 /// Solves a problem: the stages of its plan, and then the solution in rounds of the constraint.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
-    let Job { law, given, flat, constraint, control, settings, begin, observe } = job;
+    let Job { aim, law, given, flat, constraint, control, settings, begin, observe } = job;
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
     let load = flat.load(control, constraint.wall())?;
@@ -47,6 +58,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     let preconditioned = settings.method == Method::Preconditioned;
     let smoothed = if preconditioned { smoothed_law(operators.state(), law) } else { None };
     let mut posed = Posed {
+        aim,
         operators,
         adhesion: law,
         smoothed: smoothed.as_deref(),
@@ -96,13 +108,20 @@ fn solve<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, observe: Observer<
         }
         match end {
             End::Converged if touches_more(descent) => descent.iterate.posed.spreads = true,
-            End::Converged if std::mem::take(&mut descent.iterate.posed.spreads) => descent.restart(),
+            End::Converged if std::mem::take(&mut descent.iterate.posed.spreads) && !descent.ends_trial() => {
+                descent.restart();
+            }
             End::Converged => match update_constraint(descent) {
                 Update::Done => return Ok(Status::Converged),
                 Update::Again => {}
                 Update::Failed => return Ok(Status::IterationLimit),
             },
-            End::Adrift | End::Stalled => return Ok(Status::Stalled),
+            // in a trial: else surfaces are held apart
+            End::Adrift => {
+                descent.iterate.posed.detached = Some(descent.iterate.given());
+                return Ok(Status::Detached);
+            }
+            End::Stalled => return Ok(Status::Stalled),
             End::Cut(status) => return Ok(status),
         }
     }

@@ -3,6 +3,7 @@
 use ndarray::Array2;
 
 use super::descent::Descent;
+use super::driver::Aim;
 use super::iterate::Iterate;
 use super::passes::Fields;
 use super::plastic::yielded;
@@ -30,7 +31,10 @@ found! {
 }
 
 pub(super) fn finish<T: Real, Lo: Real>(mut descent: Descent<'_, T, Lo>, status: Status) -> Result<Solved<T>> {
-    descent.certify_as_returned()?;
+    let has_come_apart = descent.iterate.posed.detached.is_some();
+    if descent.iterate.posed.aim == Aim::Solution || !has_come_apart && status != Status::Converged {
+        descent.certify_as_returned()?;
+    }
     let iterate = &mut descent.iterate;
     let (mean, nodes) = (iterate.external_pressure(), iterate.posed.nodes());
     let (contact_pressure, carried) = carry(iterate);

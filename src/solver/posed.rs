@@ -5,6 +5,7 @@ use std::slice;
 use ndarray::{CowArray, Ix2};
 
 use super::descent::rey2017;
+use super::driver::Aim;
 use super::minimisation::Nearness;
 use super::operators::Operators;
 use super::plan::{Facts, Stage, StageLaw};
@@ -25,6 +26,7 @@ const STIFF: f64 = 8.0;
 
 /// The energy to be minimised, and how well. A stage has its law, wall and tolerance, and may have a load of its own.
 pub(super) struct Posed<'a, T: Real, Lo> {
+    pub(super) aim: Aim,
     pub(super) operators: &'a mut dyn Operators<T, Lo>,
     /// the law itself
     pub(super) adhesion: &'a dyn AdhesionLaw<T>,

@@ -1,7 +1,7 @@
 //! The rescues of a descent that has ended short of the solution.
 
 use super::descent::{Descent, End};
-use super::driver::Observer;
+use super::driver::{Aim, Observer};
 use super::tension::{Hold, hold_apart, hold_gap, touch};
 use crate::error::Result;
 use crate::real::Real;
@@ -27,7 +27,8 @@ impl Rescue {
     fn of_end<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, end: &End) -> Option<Self> {
         let apart = !matches!(end, End::Cut(_)) && descent.proof().is_apart();
         let hold = apart.then(|| descent.iterate.posed.holds.next()).flatten();
-        hold.map(|&hold| Self::Hold(hold)).or(matches!(end, End::Adrift).then_some(Self::Part))
+        let parts = matches!(end, End::Adrift) && descent.iterate.posed.aim == Aim::Solution;
+        hold.map(|&hold| Self::Hold(hold)).or(parts.then_some(Self::Part))
     }
 
     /// Rescues a descent; `false` if that was of no use.

@@ -1,9 +1,10 @@
 //! The energy of a state, the elastic work in it, and their rounding.
 
 use super::Iterate;
-use crate::degrees::ROUNDINGS;
+use crate::degrees::{FAR, ROUNDINGS};
 use crate::error::Result;
 use crate::real::Real;
+use crate::solver::Aim;
 use crate::solver::passes::Fields;
 use crate::solver::work::Work;
 
@@ -35,7 +36,9 @@ impl<T: Real, Lo: Real> Iterate<'_, T, Lo> {
     /// the rounding of a change c evenly over all waves: in the certificate's norm it is ε √(k⟨c, c⟩), with k the
     /// stiffness of the shortest.
     pub(in crate::solver) fn has_lost_its_pressure(&self, certificate: f64) -> bool {
-        let rounding = STALE * self.rounding_of_corrections();
+        // the pressure of a trial ends with it
+        let share = if self.posed.aim == Aim::Trial { FAR } else { STALE };
+        let rounding = share * self.rounding_of_corrections();
         certificate < rounding * rounding * self.posed.stiffness_range().1 * self.updates
     }
 
