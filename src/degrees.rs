@@ -28,7 +28,7 @@ pub(crate) const TWICE: f64 = 2.0;
 /// A first step into the unknown, as a share of the way that is known.
 pub(crate) const FIRST_STEP: f64 = 0.0625;
 
-/// A distance that is far: in ranges of adhesion, in steps, in stiffnesses of the shortest wave.
+/// A distance that is far: in ranges of adhesion, in steps, in stiffnesses of the shortest wave, in the rounding of updates.
 pub(crate) const FAR: f64 = 10.0;
 
 /// The tolerance of a state that tells where to go on: how much tension it holds, where else surfaces touch, how far its

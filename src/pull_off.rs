@@ -36,8 +36,8 @@ once! {
 /// the peak of a parabola through the last states is tried only where its loss ends the search. Before, the surfaces
 /// are pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On the branch of unloading the
 /// pull-off is the largest tension with an equilibrium, if the traction of the law falls with the gap. Where the
-/// pull-off is expected between two tensions, the search begins there. The last solve has the tolerance of the solver,
-/// solves before it are rough.
+/// pull-off is expected between two tensions, the search begins there. The last solve has the tolerance of the solver;
+/// solves before it are rough trials.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|

@@ -11,6 +11,7 @@ use super::proof::Proof;
 use super::report::{Iteration, Status};
 use super::rescue::Rescue;
 use super::start::Begin;
+use super::touch::touches_more;
 use crate::error::Result;
 use crate::real::Real;
 
@@ -81,11 +82,6 @@ impl<'a, T: Real, Lo: Real> Descent<'a, T, Lo> {
         Proof::of(&self.iterate, self.certificate)
     }
 
-    /// Whether the state is what a trial is for.
-    pub(super) fn ends_trial(&self) -> bool {
-        self.iterate.posed.aim == Aim::Trial && self.proof().converged()
-    }
-
     pub(super) fn iterations(&self) -> usize {
         self.iterations
     }
@@ -130,7 +126,26 @@ impl<'a, T: Real, Lo: Real> Descent<'a, T, Lo> {
         if observe(&self.iteration()).is_break() {
             return Ok(Some(End::Cut(Status::Stopped)));
         }
-        Ok(converged.then_some(End::Converged))
+        Ok((converged && !self.spreads_on()?).then_some(End::Converged))
+    }
+
+    /// Goes on where a state is good enough to tell whether surfaces touch at further nodes: with these nodes, or to the
+    /// tolerance itself. Whether there is more to do.
+    fn spreads_on(&mut self) -> Result<bool> {
+        if !self.iterate.posed.spreads {
+            return Ok(false);
+        }
+        if touches_more(self) {
+            self.iterate.residual();
+            self.certify()?;
+            return Ok(true);
+        }
+        self.iterate.posed.spreads = false;
+        self.restart();
+        if self.proof().converged() {
+            self.confirm()?;
+        }
+        Ok(!self.proof().converged())
     }
 
     /// Computes p = K⁻¹(g + h) anew, and the certificate of its residual: a solve ends only if that meets the

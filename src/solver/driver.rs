@@ -108,9 +108,6 @@ fn solve<T: Real, Lo: Real>(descent: &mut Descent<'_, T, Lo>, observe: Observer<
         }
         match end {
             End::Converged if touches_more(descent) => descent.iterate.posed.spreads = true,
-            End::Converged if std::mem::take(&mut descent.iterate.posed.spreads) && !descent.ends_trial() => {
-                descent.restart();
-            }
             End::Converged => match update_constraint(descent) {
                 Update::Done => return Ok(Status::Converged),
                 Update::Again => {}
