@@ -291,11 +291,16 @@ impl<T: Real> Search<'_, T> {
                 if solved.is_settled() {
                     self.bracket.bear(Held { tension, ..Held::of(&solved.solution.report) });
                     (held, is_exact) = (solved, !self.is_rough);
-                } else if solved.solution.report.status == Status::Detached {
-                    self.bracket.lose(tension);
-                } else {
-                    held.solution.report.status = solved.solution.report.status;
-                    return Ok(self.end(held, false));
+                    continue;
+                }
+                match solved.solution.report.status {
+                    Status::Detached => self.bracket.lose(tension),
+                    // a contact that is about to be lost may weigh more in a light load than in the energy
+                    Status::Stalled if self.is_rough => self.is_rough = false,
+                    status => {
+                        held.solution.report.status = status;
+                        return Ok(self.end(held, false));
+                    }
                 }
             }
             let is_narrow = self.bracket.is_narrow(self.tolerance);

@@ -143,6 +143,16 @@ fn surfaces_that_were_pressed_hold_each_other_by_weak_adhesion() {
 }
 
 #[test]
+fn a_search_goes_on_where_a_rough_state_lacks_a_part_of_a_light_load() {
+    let grid = Grid::square(256, 1.0).unwrap();
+    let surface = SelfAffine::default().k_s(32.0).seed(105).surface(grid).unwrap();
+    let law = Jkr::new(0.03 * 0.1 * 0.1 * surface.rms_height()).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let found = PullOff::default().preload(Some(5e-3)).find(&mut Solver::default(), &mut problem).unwrap();
+    assert!(found.reached, "{:?} after {} solves", found.solution.report.status, found.solves);
+}
+
+#[test]
 fn coarser_grids_make_a_search_cheaper_and_leave_the_pull_off() {
     let (mut alone, mut led) = (0, 0);
     println!(
