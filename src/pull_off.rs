@@ -79,7 +79,8 @@ pub struct PullOff {
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct FoundPullOff<T: Real> {
-    /// The state under the greatest tension borne; its mean pressure is minus this tension.
+    /// The state under the greatest tension borne; its mean pressure is minus this tension. A search that is cut short ends
+    /// with a rough state.
     pub solution: Solution<T>,
     /// The least tension under which the surfaces came apart, a pressure; none if they never did. If
     /// [`reached`](Self::reached), they came apart from a state within the tolerance of this tension.
