@@ -151,8 +151,8 @@ impl<'a, T: Real, Lo: Real> Descent<'a, T, Lo> {
     /// Computes p = K⁻¹(g + h) anew, and the certificate of its residual: a solve ends only if that meets the
     /// tolerance. A start and a trial need no such proof.
     fn confirm(&mut self) -> Result<()> {
-        let leads_on = self.iterate.posed.aim == Aim::Trial || self.proof().start_tolerance().is_some();
-        if self.iterate.age() == 0 || leads_on {
+        let is_exempt = self.iterate.posed.aim == Aim::Trial || self.proof().start_tolerance().is_some();
+        if self.iterate.age() == 0 || is_exempt {
             return Ok(());
         }
         let before = self.certificate;
